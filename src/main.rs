@@ -1,0 +1,7 @@
+//! The command line: one file a command under `cli/`.
+
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::main()
+}

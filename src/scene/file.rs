@@ -1,0 +1,139 @@
+//! The scene as it stands in a file, `smash.scene/1`: plain data, checked elsewhere.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The value of a scene file's field `schema`.
+pub const SCENE_SCHEMA: &str = "smash.scene/1";
+
+/// A scene file: two bodies, observed before and after they collide. SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "smash.scene/1")]
+pub struct SceneFile {
+    /// Always `smash.scene/1`.
+    #[schemars(extend("const" = SCENE_SCHEMA))]
+    pub schema: String,
+    /// Free text.
+    #[serde(default)]
+    pub name: String,
+    /// Frames per second; required when an observation gives `frame`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub fps: Option<f64>,
+    /// Unit vector against gravity, in the world.
+    #[serde(default = "default_up")]
+    pub up: [f64; 3],
+    /// Gravity in m/s².
+    #[serde(default = "default_gravity")]
+    #[schemars(range(min = 0))]
+    pub gravity: f64,
+    /// The noise of the annotations; estimated from the residuals when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Noise>,
+    /// The camera that the poses were seen with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
+    /// Where the data is from; carried along, never interpreted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<serde_json::Map<String, serde_json::Value>>,
+    /// One or two dynamic bodies, or one dynamic and one static; the first dynamic body is the
+    /// reference body `a` with mass 1.
+    #[schemars(length(min = 1, max = 2))]
+    pub bodies: Vec<BodyFile>,
+}
+
+fn default_up() -> [f64; 3] {
+    [0.0, 1.0, 0.0]
+}
+
+fn default_gravity() -> f64 {
+    9.81
+}
+
+/// One standard deviation of the annotations.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Noise {
+    /// Of each position coordinate, in m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub position: f64,
+    /// Of each component of the rotation vector, in rad.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub orientation: f64,
+}
+
+/// The camera; only its centre is used.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Camera {
+    /// The camera's centre in the world, in m.
+    pub position: [f64; 3],
+    /// Intrinsics and pose may join it; carried along.
+    #[serde(flatten)]
+    pub more: serde_json::Map<String, serde_json::Value>,
+}
+
+/// A body in a scene file: dynamic (`shape` and `observations`), or a static plane (`static`,
+/// `normal` and `height`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [
+    {"required": ["shape", "observations"], "not": {"anyOf": [
+        {"properties": {"static": {"const": true}}, "required": ["static"]},
+        {"required": ["normal"]}, {"required": ["height"]}]}},
+    {"required": ["static", "normal", "height"], "properties": {"static": {"const": true}},
+     "not": {"anyOf": [{"required": ["shape"]}, {"required": ["observations"]}]}}
+]))]
+pub struct BodyFile {
+    /// The body's name; each body has its own.
+    pub name: String,
+    /// Dynamic: the solid shape, whose inertia is scaled by the mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Shape>,
+    /// Dynamic: the annotated poses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub observations: Option<Vec<ObservationFile>>,
+    /// `true` for the infinitely heavy plane normal·p = height.
+    #[serde(default, rename = "static", skip_serializing_if = "Option::is_none")]
+    pub is_static: Option<bool>,
+    /// Static: the plane's unit normal, out of the solid, in the world.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
+    /// Static: the plane's distance from the origin along its normal, in m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+}
+
+/// A solid shape of uniform density; body axes are the box's axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Shape {
+    /// A solid cuboid.
+    Box {
+        /// Edge lengths along the body's axes, in m.
+        size: [f64; 3],
+    },
+    /// A solid ball.
+    Sphere {
+        /// Radius, in m.
+        radius: f64,
+    },
+}
+
+/// One annotated pose.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{"required": ["frame"]}, {"required": ["time"]}]))]
+pub struct ObservationFile {
+    /// Frame number; the time is frame / fps. Either this or `time`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<f64>,
+    /// Time in s. Either this or `frame`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+    /// The centre of mass in the world, in m.
+    pub position: [f64; 3],
+    /// The quaternion [w, x, y, z] that maps the body to the world; absent when not measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<[f64; 4]>,
+}

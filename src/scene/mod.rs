@@ -1,0 +1,114 @@
+//! Scenes: what was observed of a collision.
+//!
+//! [`SceneFile`] is the file; [`Scene`] is the same after every rule was checked, with times in
+//! seconds, sorted, and unit quaternions. A `Scene` can only be made through those checks.
+
+mod file;
+
+pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};
+
+use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
+
+/// A checked scene: one or two dynamic bodies, and maybe a static plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    name: String,
+    fps: Option<f64>,
+    up_in_world: UnitVector3<f64>,
+    gravity_m_s2: f64,
+    noise: Option<Noise>,
+    camera: Option<Camera>,
+    source: Option<serde_json::Map<String, serde_json::Value>>,
+    bodies: Vec<DynamicBody>,
+    plane: Option<StaticPlane>,
+    warnings: Vec<Warning>,
+}
+
+/// A body that moves: its solid shape and its annotated poses, in order of time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicBody {
+    /// Unique within the scene.
+    pub name: String,
+    /// The solid whose inertia is scaled by the mass.
+    pub shape: Shape,
+    /// In order of time, no time twice.
+    pub observations: Vec<Observation>,
+}
+
+/// One annotated pose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// Time in s.
+    pub time_s: f64,
+    /// Centre of mass in the world, in m.
+    pub position_in_world: Vector3<f64>,
+    /// Maps the body to the world; `None` when it wasn't measured.
+    pub world_from_body: Option<UnitQuaternion<f64>>,
+}
+
+/// The infinitely heavy plane normal·p = height.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaticPlane {
+    /// Unique within the scene.
+    pub name: String,
+    /// Unit normal out of the solid, in the world.
+    pub normal_in_world: UnitVector3<f64>,
+    /// Distance from the origin along the normal, in m.
+    pub height_m: f64,
+}
+
+/// Something that is allowed but often a mistake.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// What looks wrong, and where.
+    pub text: String,
+    /// What to do about it.
+    pub mend: String,
+}
+
+impl Scene {
+    /// Free text from the file.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Frames per second, if the scene states them.
+    pub fn fps(&self) -> Option<f64> {
+        self.fps
+    }
+
+    /// Unit vector against gravity, in the world.
+    pub fn up_in_world(&self) -> UnitVector3<f64> {
+        self.up_in_world
+    }
+
+    /// Gravity in m/s².
+    pub fn gravity_m_s2(&self) -> f64 {
+        self.gravity_m_s2
+    }
+
+    /// One σ of the annotations, if stated.
+    pub fn noise(&self) -> Option<Noise> {
+        self.noise
+    }
+
+    /// The camera, if stated.
+    pub fn camera(&self) -> Option<&Camera> {
+        self.camera.as_ref()
+    }
+
+    /// The one or two bodies that move; the first is the reference body `a`.
+    pub fn bodies(&self) -> &[DynamicBody] {
+        &self.bodies
+    }
+
+    /// The static plane, if the contact is with one.
+    pub fn plane(&self) -> Option<&StaticPlane> {
+        self.plane.as_ref()
+    }
+
+    /// What looked odd when the scene was read.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+}
