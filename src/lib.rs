@@ -11,6 +11,8 @@ pub mod rigid_body;
 pub mod scene;
 
 mod error;
+mod json;
+mod words;
 
 pub use error::{Error, ErrorKind, Result};
 pub use scene::Scene;
