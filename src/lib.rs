@@ -13,6 +13,8 @@ pub mod scene;
 
 mod bridge;
 mod error;
+mod json;
+mod words;
 
 pub use error::{Error, ErrorKind, Result};
 pub use reconstruct::{Options, Reconstruction, reconstruct, reconstruct_with_progress};
