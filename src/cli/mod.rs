@@ -1,9 +1,14 @@
 //! The commands of `smash`, one file each.
 
+mod progress;
+mod reconstruct;
+mod summary;
+
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use smash::scene::Warning;
 
 /// Reconstructs how two rigid bodies collided, from a few annotated poses.
 #[derive(Parser)]
@@ -14,12 +19,17 @@ struct Arguments {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Reconstruct(reconstruct::Arguments),
+}
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
 /// 2 wrong usage.
 pub fn main() -> ExitCode {
-    let outcome: smash::Result<()> = match Arguments::parse().command {};
+    smash::silence_solver_log();
+    let outcome = match Arguments::parse().command {
+        Command::Reconstruct(arguments) => reconstruct::run(&arguments),
+    };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -27,5 +37,18 @@ pub fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Tells of what looks odd, before the work starts.
+fn warn(warnings: &[Warning]) {
+    for warning in warnings {
+        // A closed standard error leaves nobody to tell.
+        let _ = writeln!(
+            std::io::stderr(),
+            "warning: {}\n  hint: {}",
+            warning.text,
+            warning.mend
+        );
     }
 }
