@@ -29,7 +29,10 @@ struct Document {
 impl Document {
     fn read(path: &Path) -> Document {
         let text = fs::read_to_string(path).unwrap();
-        let mut document = Document { name: path.display().to_string(), ..Document::default() };
+        let mut document = Document {
+            name: path.display().to_string(),
+            ..Document::default()
+        };
         let mut block: Option<(String, String)> = None;
         for event in Parser::new(&text) {
             match (event, &mut block) {
@@ -43,10 +46,9 @@ impl Document {
                     }
                 }
                 (Event::Code(code), _) => document.code.push(code.to_string()),
-                (
-                    Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }),
-                    _,
-                ) => document.links.push(dest_url.to_string()),
+                (Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }), _) => {
+                    document.links.push(dest_url.to_string())
+                }
                 _ => {}
             }
         }
@@ -68,16 +70,25 @@ impl Document {
     fn paths(&self) -> impl Iterator<Item = &str> {
         let local = |link: &&str| !link.contains(':') && !link.starts_with('#');
         let links = self.links.iter().map(String::as_str).filter(local);
-        let code = self.code.iter().map(String::as_str).filter(|code| looks_like_a_path(code));
-        links.map(|link| link.split('#').next().unwrap_or(link)).chain(code)
+        let code = self
+            .code
+            .iter()
+            .map(String::as_str)
+            .filter(|code| looks_like_a_path(code));
+        links
+            .map(|link| link.split('#').next().unwrap_or(link))
+            .chain(code)
     }
 }
 
 /// The Markdown files at the root, and those that explain a folder.
 fn documents() -> Vec<Document> {
-    let in_root = fs::read_dir(ROOT).unwrap().map(|entry| entry.unwrap().path());
-    let mut paths: Vec<PathBuf> =
-        in_root.filter(|path| path.extension().is_some_and(|e| e == "md")).collect();
+    let in_root = fs::read_dir(ROOT)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let mut paths: Vec<PathBuf> = in_root
+        .filter(|path| path.extension().is_some_and(|e| e == "md"))
+        .collect();
     paths.push(Path::new(ROOT).join("tests/README.md"));
     paths.sort();
     paths.iter().map(|path| Document::read(path)).collect()
@@ -90,10 +101,14 @@ fn looks_like_a_path(code: &str) -> bool {
     if !code.chars().all(plain) || code.starts_with('/') || code.starts_with("target/") {
         return false;
     }
-    let of_source = [".rs", ".md", ".toml", ".cc", ".h", ".sh"].iter().any(|e| code.ends_with(e));
+    let of_source = [".rs", ".md", ".toml", ".cc", ".h", ".sh"]
+        .iter()
+        .any(|e| code.ends_with(e));
     match code.split_once('/') {
         None => of_source,
-        Some((first, _)) => of_source || code.ends_with('/') || Path::new(ROOT).join(first).exists(),
+        Some((first, _)) => {
+            of_source || code.ends_with('/') || Path::new(ROOT).join(first).exists()
+        }
     }
 }
 
@@ -104,11 +119,16 @@ fn every_path_in_the_documents_exists() {
         let folder = Path::new(&document.name).parent().unwrap();
         for path in document.paths() {
             named += 1;
-            let exists = [Path::new(ROOT), folder].iter().any(|base| base.join(path).exists());
+            let exists = [Path::new(ROOT), folder]
+                .iter()
+                .any(|base| base.join(path).exists());
             assert!(exists, "{}: {path} doesn't exist", document.name);
         }
     }
-    assert!(named > 50, "only {named} paths found: does the search still work?");
+    assert!(
+        named > 50,
+        "only {named} paths found: does the search still work?"
+    );
 }
 
 #[test]
@@ -118,7 +138,10 @@ fn every_command_named_in_the_documents_exists() {
         for line in document.code.iter().chain(&document.prompts) {
             let mut words = line.split_whitespace();
             let program = words.next().unwrap_or_default();
-            if Path::new(program).file_name().is_some_and(|name| name == "smash") {
+            if Path::new(program)
+                .file_name()
+                .is_some_and(|name| name == "smash")
+            {
                 let command = words.find(|word| word.starts_with(|c: char| c.is_ascii_lowercase()));
                 names.extend(command.map(|command| (document.name.clone(), command.to_owned())));
             }
@@ -126,8 +149,14 @@ fn every_command_named_in_the_documents_exists() {
     }
     assert!(!names.is_empty());
     for (document, command) in names {
-        let help = Command::new(SMASH).args([&command, "--help"]).output().unwrap();
-        assert!(help.status.success(), "{document}: there is no `smash {command}`");
+        let help = Command::new(SMASH)
+            .args([&command, "--help"])
+            .output()
+            .unwrap();
+        assert!(
+            help.status.success(),
+            "{document}: there is no `smash {command}`"
+        );
     }
 }
 
@@ -153,7 +182,11 @@ fn every_script_in_the_documents_runs() {
                 .output()
                 .unwrap();
             let errors = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{}:\n{script}\n{errors}", document.name);
+            assert!(
+                output.status.success(),
+                "{}:\n{script}\n{errors}",
+                document.name
+            );
         }
     }
     assert!(scripts > 0, "the README shows a session");
