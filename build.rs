@@ -28,7 +28,8 @@ fn main() {
         .file("cpp/bridge.cc")
         .file("cpp/problem.cc")
         .include("cpp")
-        .include(include.join("eigen3"))
+        // As system headers: their warnings aren't ours.
+        .flag(format!("-isystem{}", include.join("eigen3").display()))
         .std("c++17")
         // Unoptimised templates on the scalar run fifty times slower, in every profile.
         .opt_level(2)
