@@ -1,5 +1,6 @@
 //! The commands of `smash`, one file each.
 
+mod doctor;
 mod progress;
 mod reconstruct;
 mod summary;
@@ -21,6 +22,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Reconstruct(reconstruct::Arguments),
+    Doctor(doctor::Arguments),
 }
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
@@ -29,6 +31,7 @@ pub fn main() -> ExitCode {
     smash::silence_solver_log();
     let outcome = match Arguments::parse().command {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,5 @@
+//! All integration tests, in one binary: one module a topic. `tests/README.md` says what each
+//! kind of test proves.
+
+mod docs;
+mod installation;
