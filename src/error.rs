@@ -36,7 +36,13 @@ pub struct Error {
 impl Error {
     /// An error of `kind` with the `problem` in words.
     pub fn new(kind: ErrorKind, problem: impl Into<String>) -> Self {
-        Error { kind, file: None, place: None, problem: problem.into(), mend: None }
+        Error {
+            kind,
+            file: None,
+            place: None,
+            problem: problem.into(),
+            mend: None,
+        }
     }
 
     /// A broken rule; the most frequent kind.

@@ -9,6 +9,7 @@
 pub mod files;
 pub mod rigid_body;
 pub mod scene;
+pub mod simulate;
 
 mod error;
 
