@@ -7,11 +7,28 @@
 //! ```
 
 pub mod files;
+pub mod reconstruct;
 pub mod rigid_body;
 pub mod scene;
 pub mod simulate;
 
+mod bridge;
 mod error;
+mod json;
+mod words;
 
 pub use error::{Error, ErrorKind, Result};
+pub use reconstruct::{Options, Reconstruction, reconstruct, reconstruct_with_progress};
 pub use scene::Scene;
+
+/// The version of Ceres Solver that this was built with.
+pub fn ceres_version() -> String {
+    bridge::ffi::ceres_version().unwrap_or_else(|error| error.what().to_string())
+}
+
+/// Keeps the log of Ceres Solver off standard error, for the whole process. The library leaves it
+/// as it is; a program that talks to a person wants it silent.
+pub fn silence_solver_log() {
+    // It only sets a number: there is nothing to report.
+    let _ = bridge::ffi::silence_ceres_log();
+}

@@ -1,5 +1,7 @@
 //! The commands of `smash`, one file each.
 
+mod doctor;
+
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -14,12 +16,16 @@ struct Arguments {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Doctor(doctor::Arguments),
+}
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
 /// 2 wrong usage.
 pub fn main() -> ExitCode {
-    let outcome: smash::Result<()> = match Arguments::parse().command {};
+    let outcome: smash::Result<()> = match Arguments::parse().command {
+        Command::Doctor(arguments) => doctor::run(&arguments),
+    };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

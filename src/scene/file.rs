@@ -1,7 +1,8 @@
 //! The scene as it stands in a file, `smash.scene/1`: plain data, checked elsewhere.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// The value of a scene file's field `schema`.
 pub const SCENE_SCHEMA: &str = "smash.scene/1";
@@ -78,11 +79,12 @@ pub struct Camera {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [
-    {"required": ["shape", "observations"], "not": {"anyOf": [
-        {"properties": {"static": {"const": true}}, "required": ["static"]},
-        {"required": ["normal"]}, {"required": ["height"]}]}},
-    {"required": ["static", "normal", "height"], "properties": {"static": {"const": true}},
-     "not": {"anyOf": [{"required": ["shape"]}, {"required": ["observations"]}]}}
+    {"required": ["shape", "observations"], "properties": {
+        "shape": {"type": "object"}, "observations": {"type": "array"},
+        "static": {"enum": [false, null]}, "normal": {"type": "null"}, "height": {"type": "null"}}},
+    {"required": ["static", "normal", "height"], "properties": {
+        "static": {"const": true}, "normal": {"type": "array"}, "height": {"type": "number"},
+        "shape": {"type": "null"}, "observations": {"type": "null"}}}
 ]))]
 pub struct BodyFile {
     /// The body's name; each body has its own.
@@ -105,7 +107,7 @@ pub struct BodyFile {
 }
 
 /// A solid shape of uniform density; body axes are the box's axes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Shape {
     /// A solid cuboid.
@@ -120,10 +122,45 @@ pub enum Shape {
     },
 }
 
+/// By hand, since serde's own way through a tag loses the path to a wrong value.
+impl<'de> Deserialize<'de> for Shape {
+    fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct ShapeFields {
+            r#type: ShapeType,
+            size: Option<[f64; 3]>,
+            radius: Option<f64>,
+        }
+        #[derive(Deserialize)]
+        #[serde(rename_all = "lowercase")]
+        enum ShapeType {
+            Box,
+            Sphere,
+        }
+        let fields = ShapeFields::deserialize(source)?;
+        match (fields.r#type, fields.size, fields.radius) {
+            (ShapeType::Box, Some(size), None) => Ok(Shape::Box { size }),
+            (ShapeType::Sphere, None, Some(radius)) => Ok(Shape::Sphere { radius }),
+            (ShapeType::Box, _, Some(_)) => Err(D::Error::custom(
+                "is a box with a `radius`; remove `radius`, or make it a sphere",
+            )),
+            (ShapeType::Box, None, None) => Err(D::Error::missing_field("size")),
+            (ShapeType::Sphere, Some(_), _) => Err(D::Error::custom(
+                "is a sphere with a `size`; remove `size`, or make it a box",
+            )),
+            (ShapeType::Sphere, None, None) => Err(D::Error::missing_field("radius")),
+        }
+    }
+}
+
 /// One annotated pose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["frame"]}, {"required": ["time"]}]))]
+#[schemars(extend("oneOf" = [
+    {"required": ["frame"], "properties": {"frame": {"type": "number"}, "time": {"type": "null"}}},
+    {"required": ["time"], "properties": {"time": {"type": "number"}, "frame": {"type": "null"}}}
+]))]
 pub struct ObservationFile {
     /// Frame number; the time is frame / fps. Either this or `time`.
     #[serde(default, skip_serializing_if = "Option::is_none")]

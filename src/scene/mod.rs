@@ -3,9 +3,17 @@
 //! [`SceneFile`] is the file; [`Scene`] is the same after every rule was checked, with times in
 //! seconds, sorted, and unit quaternions. A `Scene` can only be made through those checks.
 
+mod bounds;
+mod check;
 mod file;
+mod gaps;
+mod order;
+mod read;
+mod units;
+mod warn;
 
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};
+pub use gaps::Gap;
 
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 

@@ -1,0 +1,158 @@
+//! `smash doctor`: what is installed, what is missing, and how to get it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde::Serialize;
+use smash::files::print_bytes;
+
+/// The list that `./setup` reads too.
+const DEPENDENCIES: &str = include_str!("../../scripts/dependencies.txt");
+
+const INCLUDE_FOLDERS: [&str; 2] = ["/usr/include", "/usr/local/include"];
+
+/// Says what is installed, what is missing, and how to get it
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Health {
+    version: &'static str,
+    dependencies: Vec<Dependency>,
+    /// The command that installs what is missing.
+    install: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Dependency {
+    package: &'static str,
+    /// What it is for: to build smash, or to check the style of its source.
+    work: &'static str,
+    purpose: String,
+    /// Where it was found; `None` when it is missing.
+    place: Option<PathBuf>,
+    /// What a program says of itself.
+    version: Option<String>,
+}
+
+/// Prints the health of the installation.
+pub fn run(arguments: &Arguments) -> smash::Result<()> {
+    let health = Health::examine();
+    let mut text = if arguments.json {
+        serde_json::to_string_pretty(&health).expect("plain strings always serialise")
+    } else {
+        health.in_words()
+    };
+    text.push('\n');
+    print_bytes(text.as_bytes())
+}
+
+impl Health {
+    fn examine() -> Health {
+        let lines = DEPENDENCIES
+            .lines()
+            .filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let dependencies: Vec<Dependency> = lines.map(Dependency::look_for).collect();
+        let missing: Vec<_> = dependencies
+            .iter()
+            .filter(|d| d.place.is_none())
+            .map(|d| d.package)
+            .collect();
+        let install =
+            (!missing.is_empty()).then(|| format!("sudo apt-get install {}", missing.join(" ")));
+        Health {
+            version: env!("CARGO_PKG_VERSION"),
+            dependencies,
+            install,
+        }
+    }
+
+    fn in_words(&self) -> String {
+        let mut lines = vec![format!("smash {} runs.", self.version)];
+        for (work, title) in [("build", "To build it:"), ("style", "To check its style:")] {
+            lines.push(format!("\n{title}"));
+            lines.extend(
+                self.dependencies
+                    .iter()
+                    .filter(|d| d.work == work)
+                    .map(|d| d.in_words()),
+            );
+        }
+        lines.push(match &self.install {
+            Some(command) => format!("\nTo get what is missing (Debian): {command}"),
+            None => "\nNothing is missing.".into(),
+        });
+        lines.join("\n")
+    }
+}
+
+impl Dependency {
+    /// Reads one line of the list, and looks on this machine.
+    fn look_for(line: &'static str) -> Dependency {
+        let mut words = line.split_whitespace();
+        let mut next = || words.next().unwrap_or_default();
+        let (work, probe, package) = (next(), next(), next());
+        let purpose = words.collect::<Vec<_>>().join(" ");
+        let (kind, name) = probe.split_once(':').unwrap_or_default();
+        let folders = match kind {
+            "command" => folders_of_path(),
+            "header" => include_folders(),
+            _ => vec!["/".into()],
+        };
+        let place = folders
+            .iter()
+            .map(|folder| folder.join(name))
+            .find(|path| path.exists());
+        let version = if kind == "command" {
+            place.as_deref().and_then(version_of)
+        } else {
+            None
+        };
+        Dependency {
+            package,
+            work,
+            purpose,
+            place,
+            version,
+        }
+    }
+
+    fn in_words(&self) -> String {
+        match (&self.place, &self.version) {
+            (None, _) => format!("  missing  {}: {}", self.package, self.purpose),
+            (Some(place), None) => format!("  found    {}: {}", self.package, place.display()),
+            (Some(place), Some(version)) => {
+                format!(
+                    "  found    {}: {} ({version})",
+                    self.package,
+                    place.display()
+                )
+            }
+        }
+    }
+}
+
+fn folders_of_path() -> Vec<PathBuf> {
+    std::env::var_os("PATH")
+        .map(|path| std::env::split_paths(&path).collect())
+        .unwrap_or_default()
+}
+
+fn include_folders() -> Vec<PathBuf> {
+    let named = std::env::var_os("SMASH_CERES_INCLUDE").map(PathBuf::from);
+    named
+        .into_iter()
+        .chain(INCLUDE_FOLDERS.map(PathBuf::from))
+        .collect()
+}
+
+/// The first line of what the program says to `--version`.
+fn version_of(program: &Path) -> Option<String> {
+    let output = Command::new(program).arg("--version").output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    text.lines().next().map(str::to_owned)
+}

@@ -1,0 +1,85 @@
+//! Residuals of the model at the observations, and what they add up to.
+
+use nalgebra::Vector3;
+
+use super::gravity_frame::from_wxyz;
+use super::internal::InternalScene;
+use super::phases::Solved;
+use super::result::Fit;
+use crate::Result;
+use crate::bridge::ffi;
+use crate::scene::Noise;
+
+/// Sums of squares over the measured numbers.
+#[derive(Default)]
+struct SquaredResiduals {
+    position_m2: f64,
+    position_count: usize,
+    orientation_rad2: f64,
+    orientation_count: usize,
+}
+
+/// Compares the model with every pose. `noise`: the scene's, if stated.
+pub(super) fn fit(internal: &InternalScene, solved: &Solved, noise: Option<Noise>) -> Result<Fit> {
+    let squares = squared_residuals(internal, solved)?;
+    let measured = squares.position_count + squares.orientation_count;
+    let dof = measured as i64 - free_parameters(internal) as i64;
+    let chi2 = noise.map(|noise| {
+        squares.position_m2 / noise.position.powi(2)
+            + squares.orientation_rad2 / noise.orientation.powi(2)
+    });
+    let reason = match (noise, dof) {
+        (None, _) => Some("the scene states no noise".to_string()),
+        (_, ..=0) => Some("there are no more measured numbers than free parameters".to_string()),
+        _ => None,
+    };
+    Ok(Fit {
+        position_rmse: (squares.position_m2 / squares.position_count as f64).sqrt(),
+        orientation_rmse: (squares.orientation_count > 0)
+            .then(|| (squares.orientation_rad2 / squares.orientation_count as f64).sqrt()),
+        chi2,
+        dof,
+        reduced_chi2: chi2.filter(|_| dof > 0).map(|chi2| chi2 / dof as f64),
+        cost: solved.cost,
+        reason,
+    })
+}
+
+fn squared_residuals(internal: &InternalScene, solved: &Solved) -> Result<SquaredResiduals> {
+    let mut squares = SquaredResiduals::default();
+    for (index, body) in internal.paper.bodies.iter().enumerate() {
+        let times: Vec<f64> = body.observations.iter().map(|o| o.time_frames).collect();
+        let (paper, unknowns) = (&internal.paper, &solved.unknowns);
+        let poses =
+            ffi::predict_paper_poses(paper, solved.collision_frames, unknowns, index, &times)
+                .map_err(super::solver_error)?;
+        for (seen, model) in body.observations.iter().zip(&poses) {
+            let difference = Vector3::from(model.position) - Vector3::from(seen.position);
+            squares.position_m2 += difference.norm_squared();
+            squares.position_count += 3;
+            if body.has_spin && seen.has_orientation {
+                let angle = from_wxyz(seen.orientation).angle_to(&from_wxyz(model.orientation));
+                squares.orientation_rad2 += angle * angle;
+                squares.orientation_count += 3;
+            }
+        }
+    }
+    Ok(squares)
+}
+
+/// Free parameters of the physical model: of the 47 unknowns, the constraints take away those that
+/// follow from others, and the contact point's place along the impulse is none.
+fn free_parameters(internal: &InternalScene) -> usize {
+    let bodies = &internal.paper.bodies;
+    let flights: usize = bodies
+        .iter()
+        .map(|body| if body.has_spin { 12 } else { 6 })
+        .sum();
+    let line_of_action = if bodies.iter().any(|body| body.has_spin) {
+        2
+    } else {
+        0
+    };
+    let (impulse, tilt, mass_ratio) = (3, 2, bodies.len() - 1);
+    flights + impulse + line_of_action + tilt + mass_ratio
+}

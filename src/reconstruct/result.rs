@@ -1,0 +1,142 @@
+//! The result as it stands in a file, `smash.result/1`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Flag;
+
+/// The value of a result file's field `schema`.
+pub const RESULT_SCHEMA: &str = "smash.result/1";
+
+/// How two bodies collided, as far as the poses tell. SI units, world frame, at the collision.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "smash.result/1")]
+pub struct Reconstruction {
+    /// Always `smash.result/1`.
+    #[schemars(extend("const" = RESULT_SCHEMA))]
+    pub schema: String,
+    /// The scene's name.
+    pub scene: String,
+    /// The method: `paper`.
+    pub preset: String,
+    /// What chose the segment: `distance` or `cost`.
+    pub segment_by: String,
+    /// m_b / m_a; null without a second dynamic body.
+    pub mass_ratio: Option<Estimate>,
+    /// c = −(relative normal velocity after) / (before), SMASH eq. 15.
+    pub restitution: Estimate,
+    /// t_c in s.
+    pub collision_time: Estimate,
+    /// x_c in m. Along the impulse it isn't determined: every point of that line explains the
+    /// poses equally well.
+    pub contact_point: [f64; 3],
+    /// J on the reference body per unit of its mass, in N·s/kg; −J acts on the other.
+    pub impulse: [f64; 3],
+    /// Unit: J/|J| between two bodies, the plane's on a static one; null without an impulse.
+    pub normal: Option<[f64; 3]>,
+    /// The dynamic bodies, the reference body first.
+    pub bodies: Vec<BodyResult>,
+    /// Effects beyond the base model.
+    pub effects: Vec<Effect>,
+    /// How well the model meets the poses.
+    pub fit: Fit,
+    /// The solver's phases; in the first, the chosen segment's.
+    pub phases: Vec<PhaseReport>,
+    /// What is doubtful.
+    pub flags: Vec<Flag>,
+    /// What looked odd in the scene.
+    pub warnings: Vec<String>,
+}
+
+/// A number and how sure it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Estimate {
+    /// The estimate; null where the data don't determine it.
+    pub value: Option<f64>,
+    /// One standard deviation; null where it can't be computed.
+    pub std: Option<f64>,
+    /// Why `value` or `std` is null.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// An effect beyond the base model, with its parameters. The `paper` preset has none.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Effect {
+    /// Its name in the catalogue.
+    pub name: String,
+    /// The body that it acts on; null for all.
+    pub body: Option<String>,
+}
+
+/// A body at the moment of the collision.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BodyResult {
+    /// The body's name in the scene.
+    pub name: String,
+    /// Centre of mass, m.
+    pub position: [f64; 3],
+    /// Quaternion [w, x, y, z], body to world; null when not measured.
+    pub orientation: Option<[f64; 4]>,
+    /// m/s.
+    pub velocity_before: [f64; 3],
+    /// m/s.
+    pub velocity_after: [f64; 3],
+    /// rad/s; null when the poses don't determine it.
+    pub angular_velocity_before: Option<[f64; 3]>,
+    /// rad/s; null when the poses don't determine it.
+    pub angular_velocity_after: Option<[f64; 3]>,
+    /// kg·m²/s with the reference body's mass 1; null with the angular velocity.
+    pub angular_momentum_before: Option<[f64; 3]>,
+    /// kg·m²/s with the reference body's mass 1; null with the angular velocity.
+    pub angular_momentum_after: Option<[f64; 3]>,
+    /// Why a rotation is null.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// How well the model meets the poses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Fit {
+    /// Root mean square over all position coordinates, m: to be compared with the noise.
+    pub position_rmse: f64,
+    /// Root mean square over all components of the residual rotation vectors, rad; null when no
+    /// orientation was measured.
+    pub orientation_rmse: Option<f64>,
+    /// Sum of squared residuals over the stated noise; null when the scene states none.
+    pub chi2: Option<f64>,
+    /// Measured numbers minus free parameters of the model.
+    pub dof: i64,
+    /// chi2 / dof; null with either.
+    pub reduced_chi2: Option<f64>,
+    /// The energy at the end (SMASH eq. 16).
+    pub cost: f64,
+    /// Why a number is null.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// One phase of the solver.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PhaseReport {
+    /// `1 trajectories`, `2 impulse`, `3 contact point`.
+    pub name: String,
+    /// The energy at its start.
+    pub cost_initial: f64,
+    /// The energy at its end.
+    pub cost_final: f64,
+    /// Iterations of the optimiser.
+    pub iterations: u32,
+    /// Wall time in s; the only number that differs from run to run.
+    pub seconds: f64,
+}
+
+impl Reconstruction {
+    /// The file's text: JSON, with a final newline.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self)
+            .expect("plain numbers and strings always have a JSON form");
+        text.push('\n');
+        text
+    }
+}

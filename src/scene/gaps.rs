@@ -1,0 +1,96 @@
+//! The gaps between observation times, in one of which the collision must be.
+
+use super::bounds::{LEAST_POSES, SAME_TIME_S};
+use super::{DynamicBody, Scene};
+use crate::words::quoted;
+use crate::{Error, Result};
+
+/// A gap between two consecutive times of all bodies' observations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gap {
+    /// The last time before the gap, in s.
+    pub start_s: f64,
+    /// The first time after the gap, in s.
+    pub end_s: f64,
+}
+
+impl Gap {
+    /// The time in the middle, in s.
+    pub fn midpoint_s(&self) -> f64 {
+        0.5 * (self.start_s + self.end_s)
+    }
+}
+
+impl Scene {
+    /// The gaps that the collision can be in: those with 2 or more poses of each body on each
+    /// side. In order of time; never empty.
+    pub fn gaps(&self) -> Vec<Gap> {
+        with_poses(&self.bodies, LEAST_POSES)
+    }
+}
+
+/// The gaps with `least` or more poses of each body on each side, in order of time.
+pub(super) fn with_poses(bodies: &[DynamicBody], least: usize) -> Vec<Gap> {
+    let mut times: Vec<f64> = bodies
+        .iter()
+        .flat_map(|body| &body.observations)
+        .map(|seen| seen.time_s)
+        .collect();
+    times.sort_by(f64::total_cmp);
+    let has_enough = |gap: &Gap| {
+        bodies.iter().all(|body| {
+            let before = poses_before(body, gap);
+            before >= least && body.observations.len() - before >= least
+        })
+    };
+    let gaps = times.windows(2).map(|pair| Gap {
+        start_s: pair[0],
+        end_s: pair[1],
+    });
+    gaps.filter(|gap| gap.end_s - gap.start_s >= SAME_TIME_S)
+        .filter(has_enough)
+        .collect()
+}
+
+/// How many of the body's poses are before the gap.
+pub(super) fn poses_before(body: &DynamicBody, gap: &Gap) -> usize {
+    body.observations
+        .partition_point(|seen| seen.time_s < gap.midpoint_s())
+}
+
+/// Checks that the collision can be somewhere.
+pub(super) fn check(bodies: &[DynamicBody]) -> Result<()> {
+    let needed = 2 * LEAST_POSES;
+    for body in bodies {
+        let poses = body.observations.len();
+        if poses < needed {
+            let problem = format!("body {} has {poses} observations", quoted(&body.name));
+            return Err(Error::invalid("bodies", problem).mend(format!(
+                "annotate {LEAST_POSES} or more poses before and {LEAST_POSES} or more after the \
+                 collision"
+            )));
+        }
+    }
+    if !with_poses(bodies, LEAST_POSES).is_empty() {
+        return Ok(());
+    }
+    let spans: Vec<_> = bodies
+        .iter()
+        .map(|body| {
+            let (first, last) = (body.observations.first(), body.observations.last());
+            let time = |seen: Option<&super::Observation>| seen.map_or(0.0, |seen| seen.time_s);
+            format!(
+                "{} from {} s to {} s",
+                quoted(&body.name),
+                time(first),
+                time(last)
+            )
+        })
+        .collect();
+    let problem = format!(
+        "no moment has {LEAST_POSES} poses of each body before and after it: {}",
+        spans.join(", ")
+    );
+    Err(Error::invalid("bodies", problem)
+        .mend("annotate both bodies on both sides of the collision; check the time stamps"))
+}

@@ -1,0 +1,59 @@
+//! What messages say of the user's own words: quoted, shortened, and with the likely meaning.
+
+/// The characters of a quotation that are shown; the rest tells nothing new.
+const LONGEST_QUOTE: usize = 60;
+
+/// `text` between backticks, shortened, with control characters escaped.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("`{}`", shortened(text))
+}
+
+/// `text` without its tail if it is long, with control characters escaped.
+pub(crate) fn shortened(text: &str) -> String {
+    let mut shown = String::new();
+    let mut chars = text.chars();
+    for character in chars.by_ref().take(LONGEST_QUOTE) {
+        match character {
+            '"' | '\'' | '\\' => shown.push(character),
+            other => shown.extend(other.escape_debug()),
+        }
+    }
+    if chars.next().is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
+/// The mend for a word that isn't among the `known` ones.
+pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> String {
+    // Similarity costs the product of the lengths: a word of a megabyte is no misspelling.
+    let near = if word.len() > LONGEST_QUOTE {
+        None
+    } else {
+        nearest(word, known)
+    };
+    match near {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None if known.is_empty() => "leave it out".into(),
+        None => format!("known here: {}", listed(known)),
+    }
+}
+
+fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let lower = word.to_lowercase();
+    let scored = known
+        .iter()
+        .map(|&one| (strsim::damerau_levenshtein(&lower, one), one));
+    let (distance, meant) = scored.min_by_key(|&(distance, _)| distance)?;
+    // A third of the letters wrong is still a slip; more is another word.
+    (distance * 3 <= meant.chars().count().max(lower.chars().count())).then_some(meant)
+}
+
+/// The words between backticks, with commas.
+pub(crate) fn listed(words: &[&str]) -> String {
+    words
+        .iter()
+        .map(|word| format!("`{word}`"))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
