@@ -1,6 +1,8 @@
 //! The commands of `smash`, one file each.
 
 mod doctor;
+mod import;
+mod schema;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -18,6 +20,8 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Doctor(doctor::Arguments),
+    Import(import::Arguments),
+    Schema(schema::Arguments),
 }
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
@@ -25,6 +29,8 @@ enum Command {
 pub fn main() -> ExitCode {
     let outcome: smash::Result<()> = match Arguments::parse().command {
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -33,5 +39,13 @@ pub fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Tells on standard error what looked odd in a scene.
+fn print_warnings(warnings: &[smash::scene::Warning]) {
+    for warning in warnings {
+        // A closed standard error leaves nobody to tell.
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
 }

@@ -189,6 +189,17 @@ fn first_char(text: &str) -> &str {
 }
 
 impl Tree {
+    /// The value of an object's field.
+    pub(super) fn field(&self, name: &str) -> Option<&Tree> {
+        let Tree::Object(fields) = self else {
+            return None;
+        };
+        fields
+            .iter()
+            .find(|(key, _)| key == name)
+            .map(|(_, value)| value)
+    }
+
     /// The value as a message shows it: whole if short, else its kind.
     pub(super) fn shown(&self) -> String {
         match self {

@@ -1,5 +1,11 @@
 //! All integration tests, in one binary: one module a topic. `tests/README.md` says what each
 //! kind of test proves.
 
+mod bad_input;
 mod docs;
+mod import;
 mod installation;
+mod scene_rules;
+mod scene_warnings;
+mod scenes;
+mod schema;
