@@ -11,6 +11,7 @@ pub mod import;
 pub mod reconstruct;
 pub mod rigid_body;
 pub mod scene;
+pub mod simulate;
 
 mod bridge;
 mod error;

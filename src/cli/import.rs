@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments) -> smash::Result<()> {
     let file = import_csv(&tables, &arguments.options())?;
     let scene = Scene::from_file(file.clone())
         .map_err(|error| error.in_file(format!("the scene of {}", texts[0].0)))?;
-    super::print_warnings(scene.warnings());
+    super::warn(scene.warnings());
     output.write(file.to_json().as_bytes())?;
     if output.is_standard_output() {
         return Ok(());

@@ -2,12 +2,16 @@
 
 mod doctor;
 mod import;
+mod progress;
+mod reconstruct;
 mod schema;
+mod summary;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use smash::scene::Warning;
 
 /// Reconstructs how two rigid bodies collided, from a few annotated poses.
 #[derive(Parser)]
@@ -19,6 +23,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Reconstruct(reconstruct::Arguments),
     Doctor(doctor::Arguments),
     Import(import::Arguments),
     Schema(schema::Arguments),
@@ -27,7 +32,9 @@ enum Command {
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
 /// 2 wrong usage.
 pub fn main() -> ExitCode {
-    let outcome: smash::Result<()> = match Arguments::parse().command {
+    smash::silence_solver_log();
+    let outcome = match Arguments::parse().command {
+        Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
@@ -42,8 +49,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Tells on standard error what looked odd in a scene.
-fn print_warnings(warnings: &[smash::scene::Warning]) {
+/// Tells of what looks odd, before the work starts.
+fn warn(warnings: &[Warning]) {
     for warning in warnings {
         // A closed standard error leaves nobody to tell.
         let _ = writeln!(std::io::stderr(), "warning: {warning}");

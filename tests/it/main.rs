@@ -2,10 +2,13 @@
 //! kind of test proves.
 
 mod bad_input;
+mod collision;
 mod docs;
+mod free_rotation;
 mod import;
 mod installation;
 mod scene_rules;
 mod scene_warnings;
 mod scenes;
 mod schema;
+mod simulate;

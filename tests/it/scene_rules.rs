@@ -392,7 +392,10 @@ fn keep(scene: &mut Value, range: std::ops::Range<usize>) {
 /// Leaves `a` the poses after the collision, and `b` those before it.
 fn apart(scene: &mut Value) {
     keep(scene, 0..5);
-    scene["bodies"][0]["observations"].as_array_mut().unwrap().drain(..5);
+    scene["bodies"][0]["observations"]
+        .as_array_mut()
+        .unwrap()
+        .drain(..5);
 }
 
 fn pose(scene: &mut Value) -> &mut Value {
