@@ -466,13 +466,13 @@ fn json_that_does_not_parse_names_line_and_column() {
         ),
         (
             "{\"source\": {\"k\": 1, \"k\": 1}}",
-            "line 1, column 22",
+            "line 1, column 23",
             "`k` again",
         ),
         ("{\"name\": \"x\"", "line 1, column 12", "ends too early"),
         ("{} {}", "line 1, column 4", "follows the end"),
         ("{'name': 1}", "line 1, column 2", "`'name'`"),
-        ("{\"a\": [1,]}", "line 1, column 9", "trailing comma"),
+        ("{\"a\": [1,]}", "line 1, column 10", "trailing comma"),
     ];
     for (text, place, words) in cases {
         let error = Scene::parse(text, "broken.json").unwrap_err();
