@@ -295,7 +295,8 @@ fn unit_length(place: &str, values: &[f64]) -> Result<f64> {
     if (length - 1.0).abs() <= UNIT_TOLERANCE {
         return Ok(length);
     }
-    let problem = format!("{values:?} has length {length:.6e}, not 1");
+    // Seven digits are enough to see what is wrong.
+    let problem = format!("{values:?} has length {}, not 1", length as f32);
     let error = Error::invalid(place, problem);
     Err(if length == 0.0 && values.len() == 4 {
         error.mend("leave `orientation` out if it wasn't measured")
