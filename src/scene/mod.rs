@@ -3,6 +3,7 @@
 //! [`SceneFile`] is the file; [`Scene`] is the same after every rule was checked, with times in
 //! seconds, sorted, and unit quaternions. A `Scene` can only be made through those checks.
 
+mod body;
 mod bounds;
 mod check;
 mod file;
@@ -10,6 +11,7 @@ mod gaps;
 mod order;
 mod read;
 mod units;
+mod values;
 mod warn;
 
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};
