@@ -3,6 +3,7 @@
 mod doctor;
 mod progress;
 mod reconstruct;
+mod simulate;
 mod summary;
 
 use std::io::Write;
@@ -22,6 +23,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Reconstruct(reconstruct::Arguments),
+    Simulate(simulate::Arguments),
     Doctor(doctor::Arguments),
 }
 
@@ -31,6 +33,7 @@ pub fn main() -> ExitCode {
     smash::silence_solver_log();
     let outcome = match Arguments::parse().command {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match outcome {

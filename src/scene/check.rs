@@ -112,7 +112,7 @@ fn check_number_of_bodies(bodies: &[BodyFile]) -> Result<()> {
     Ok(())
 }
 
-fn check_name(place: &str, name: &str) -> Result<()> {
+pub(crate) fn check_name(place: &str, name: &str) -> Result<()> {
     let letters = name.chars().count();
     if letters > LONGEST_NAME {
         let problem = format!("{} has {letters} letters", quoted(name));
@@ -200,7 +200,7 @@ fn dynamic_body(
     })
 }
 
-fn check_shape(place: &str, shape: &Shape) -> Result<()> {
+pub(crate) fn check_shape(place: &str, shape: &Shape) -> Result<()> {
     let mend = "give lengths in m, above 0";
     match *shape {
         Shape::Box { size } => size.iter().enumerate().try_for_each(|(axis, &edge)| {
@@ -257,7 +257,7 @@ fn observation(place: &str, file: &ObservationFile, fps: Option<f64>) -> Result<
     })
 }
 
-fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
+pub(crate) fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
     for (axis, &value) in coordinates.iter().enumerate() {
         check_range(
             &format!("{place}[{axis}]"),
@@ -269,14 +269,14 @@ fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
     Ok(Vector3::from(coordinates))
 }
 
-fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVector3<f64>> {
+pub(crate) fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVector3<f64>> {
     let length = unit_length(place, &coordinates)?;
     Ok(UnitVector3::new_unchecked(
         Vector3::from(coordinates) / length,
     ))
 }
 
-fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
+pub(crate) fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
     let length = unit_length(place, &wxyz)?;
     let [w, x, y, z] = wxyz;
     Ok(UnitQuaternion::new_unchecked(
@@ -310,7 +310,12 @@ fn unit_length(place: &str, values: &[f64]) -> Result<f64> {
     })
 }
 
-fn check_range(place: &str, value: f64, range: &RangeInclusive<f64>, mend: &str) -> Result<()> {
+pub(crate) fn check_range(
+    place: &str,
+    value: f64,
+    range: &RangeInclusive<f64>,
+    mend: &str,
+) -> Result<()> {
     if range.contains(&value) {
         return Ok(());
     }
@@ -322,14 +327,14 @@ fn check_range(place: &str, value: f64, range: &RangeInclusive<f64>, mend: &str)
     Err(Error::invalid(place, problem).mend(mend))
 }
 
-fn needed<T>(place: &str, field: &str, value: Option<T>, why: &str) -> Result<T> {
+pub(crate) fn needed<T>(place: &str, field: &str, value: Option<T>, why: &str) -> Result<T> {
     value.ok_or_else(|| {
         Error::invalid(place, format!("the field `{field}` is missing: {why}"))
             .mend(format!("add `{field}`"))
     })
 }
 
-fn refuse(place: &str, field: &str, is_there: bool, why: &str) -> Result<()> {
+pub(crate) fn refuse(place: &str, field: &str, is_there: bool, why: &str) -> Result<()> {
     if is_there {
         return Err(Error::invalid(
             format!("{place}.{field}"),

@@ -3,8 +3,8 @@
 //! [`SceneFile`] is the file; [`Scene`] is the same after every rule was checked, with times in
 //! seconds, sorted, and unit quaternions. A `Scene` can only be made through those checks.
 
-mod bounds;
-mod check;
+pub(crate) mod bounds;
+pub(crate) mod check;
 mod file;
 mod gaps;
 mod order;
