@@ -6,3 +6,4 @@ mod docs;
 mod free_rotation;
 mod installation;
 mod simulate;
+mod simulate_command;
