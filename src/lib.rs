@@ -10,6 +10,7 @@ pub mod files;
 pub mod reconstruct;
 pub mod rigid_body;
 pub mod scene;
+pub mod simulate;
 
 mod bridge;
 mod error;

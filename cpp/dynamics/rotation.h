@@ -7,13 +7,12 @@
 
 namespace smash {
 
-// Hamilton's product p q.
+// Hamilton's product (0, v) q.
 template <typename T>
-Quaternion<T> Multiply(const Quaternion<T>& p, const Quaternion<T>& q) {
-  return Quaternion<T>(p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-                       p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-                       p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-                       p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]);
+Quaternion<T> MultiplyPure(const Vector3<T>& v, const Quaternion<T>& q) {
+  const Vector3<T> u = q.template tail<3>();
+  const Vector3<T> imaginary = q[0] * v + v.cross(u);
+  return Quaternion<T>(-v.dot(u), imaginary[0], imaginary[1], imaginary[2]);
 }
 
 // v turned by the unit quaternion {w, u}: v + 2 u x (u x v + w v).
@@ -23,14 +22,15 @@ Vector3<T> Rotate(const T& w, const Vector3<T>& u, const Vector3<T>& v) {
   return v + T(2) * u.cross(inner);
 }
 
-// omega = R I0^-1 R^T k in the world (eq. 9), rad/s. `inertia`: principal moments in kg m^2.
+// omega = R I0^-1 R^T k in the world (eq. 9), rad/s. `inverse_inertia`: of the principal moments,
+// 1/(kg m^2).
 template <typename T>
 Vector3<T> AngularVelocity(const Quaternion<T>& world_from_body, const Vector3<T>& k_in_world,
-                           const Vector3<T>& inertia) {
+                           const Vector3<T>& inverse_inertia) {
   const Vector3<T> axis = world_from_body.template tail<3>();
   const Vector3<T> conjugate_axis = -axis;
   const Vector3<T> k_in_body = Rotate(world_from_body[0], conjugate_axis, k_in_world);
-  const Vector3<T> omega_in_body = k_in_body.cwiseQuotient(inertia);
+  const Vector3<T> omega_in_body = k_in_body.cwiseProduct(inverse_inertia);
   return Rotate(world_from_body[0], axis, omega_in_body);
 }
 
@@ -39,11 +39,12 @@ Vector3<T> AngularVelocity(const Quaternion<T>& world_from_body, const Vector3<T
 template <typename T>
 Quaternion<T> EulerRotation(Quaternion<T> world_from_body, const Vector3<T>& k_in_world,
                             const Vector3<T>& inertia, double duration_s, int steps) {
+  const Vector3<T> inverse_inertia = inertia.cwiseInverse();
   const double half_step_s = 0.5 * duration_s / steps;
   for (int step = 0; step < steps; ++step) {
-    const Vector3<T> omega = AngularVelocity(world_from_body, k_in_world, inertia);
-    const Quaternion<T> spin(T(0), omega[0], omega[1], omega[2]);
-    const Quaternion<T> moved = world_from_body + T(half_step_s) * Multiply(spin, world_from_body);
+    const Vector3<T> omega = AngularVelocity(world_from_body, k_in_world, inverse_inertia);
+    const Quaternion<T> moved =
+        world_from_body + MultiplyPure(Vector3<T>(omega * T(half_step_s)), world_from_body);
     world_from_body = moved / moved.norm();
   }
   return world_from_body;

@@ -1,11 +1,15 @@
 //! The commands of `smash`, one file each.
 
 mod doctor;
+mod progress;
+mod reconstruct;
+mod summary;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use smash::scene::Warning;
 
 /// Reconstructs how two rigid bodies collided, from a few annotated poses.
 #[derive(Parser)]
@@ -17,13 +21,16 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Reconstruct(reconstruct::Arguments),
     Doctor(doctor::Arguments),
 }
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
 /// 2 wrong usage.
 pub fn main() -> ExitCode {
-    let outcome: smash::Result<()> = match Arguments::parse().command {
+    smash::silence_solver_log();
+    let outcome = match Arguments::parse().command {
+        Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match outcome {
@@ -33,5 +40,18 @@ pub fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Tells of what looks odd, before the work starts.
+fn warn(warnings: &[Warning]) {
+    for warning in warnings {
+        // A closed standard error leaves nobody to tell.
+        let _ = writeln!(
+            std::io::stderr(),
+            "warning: {}\n  hint: {}",
+            warning.text,
+            warning.mend
+        );
     }
 }

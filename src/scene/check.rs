@@ -270,21 +270,30 @@ fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
 }
 
 fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVector3<f64>> {
-    check_unit_length(place, &coordinates)?;
-    Ok(UnitVector3::new_normalize(Vector3::from(coordinates)))
+    let length = unit_length(place, &coordinates)?;
+    Ok(UnitVector3::new_unchecked(
+        Vector3::from(coordinates) / length,
+    ))
 }
 
 fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
-    check_unit_length(place, &wxyz)?;
+    let length = unit_length(place, &wxyz)?;
     let [w, x, y, z] = wxyz;
-    Ok(UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)))
+    Ok(UnitQuaternion::new_unchecked(
+        Quaternion::new(w, x, y, z) / length,
+    ))
 }
 
-fn check_unit_length(place: &str, values: &[f64]) -> Result<()> {
+/// The length of what should have length 1; exactly 1 if it is 1 but for rounding, so that what
+/// was normalised once stays as it is.
+fn unit_length(place: &str, values: &[f64]) -> Result<f64> {
     let length = values.iter().fold(0.0, |sum: f64, value| sum.hypot(*value));
+    if (length - 1.0).abs() <= 4.0 * f64::EPSILON {
+        return Ok(1.0);
+    }
     // Written so that a NaN fails.
     if (length - 1.0).abs() <= UNIT_TOLERANCE {
-        return Ok(());
+        return Ok(length);
     }
     let problem = format!("{values:?} has length {length:.6e}, not 1");
     let error = Error::invalid(place, problem);

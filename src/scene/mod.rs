@@ -9,6 +9,7 @@ mod file;
 mod gaps;
 mod order;
 mod read;
+mod units;
 mod warn;
 
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};

@@ -1,0 +1,104 @@
+//! `smash reconstruct`: the main job.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use smash::files::{Output, print_bytes};
+use smash::reconstruct::{Options, SegmentCriterion, reconstruct_with_progress};
+use smash::{Reconstruction, Result, Scene};
+
+use super::progress::ProgressLine;
+use super::summary;
+
+/// Reconstructs the collision in a scene: mass ratio, restitution, velocities and spins
+#[derive(Args)]
+pub struct Arguments {
+    /// The scene (smash.scene/1), or - for standard input
+    scene: PathBuf,
+    /// Where to write the result (smash.result/1), or - for standard output
+    #[arg(short, long, value_name = "RESULT")]
+    output: Option<PathBuf>,
+    /// The method. Without it: `paper` with `--segment-by cost`
+    #[arg(long)]
+    preset: Option<Preset>,
+    /// What chooses between which two observations the bodies collided
+    #[arg(long, value_name = "CRITERION")]
+    segment_by: Option<SegmentBy>,
+    /// Print the result as JSON instead of words
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Preset {
+    /// The SMASH paper to the letter
+    Paper,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SegmentBy {
+    /// The paper's criterion: least distance of the two centres (default of `--preset paper`)
+    Distance,
+    /// Least cost of phase 1: right far more often
+    Cost,
+}
+
+impl Arguments {
+    fn options(&self) -> Options {
+        let mut options = match self.preset {
+            Some(Preset::Paper) => Options::paper(),
+            None => Options::default(),
+        };
+        match self.segment_by {
+            Some(SegmentBy::Distance) => options.segment_by = SegmentCriterion::Distance,
+            Some(SegmentBy::Cost) => options.segment_by = SegmentCriterion::Cost,
+            None => {}
+        }
+        options
+    }
+
+    /// What is worth trying after `result`.
+    fn next_steps(&self, result: &Reconstruction) -> Vec<String> {
+        let scene = self.scene.display();
+        let mut steps = Vec::new();
+        if result.segment_by == "cost" {
+            steps.push(format!(
+                "smash reconstruct {scene} --preset paper    the paper to the letter, to compare"
+            ));
+        } else {
+            steps.push(format!(
+                "smash reconstruct {scene} --preset paper --segment-by cost    \
+                 finds the right segment more often"
+            ));
+        }
+        if !result.flags.is_empty() || !result.warnings.is_empty() {
+            steps.push("look at the poses nearest the collision, and at the warnings".to_string());
+        }
+        steps
+    }
+}
+
+/// Reads, reconstructs, writes, tells.
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let output = arguments.output.as_deref().map(Output::check).transpose()?;
+    let scene = Scene::read(&arguments.scene)?;
+    super::warn(scene.warnings());
+    let progress = ProgressLine::new();
+    let result = reconstruct_with_progress(&scene, &arguments.options(), &|step| {
+        progress.show(step);
+    })
+    .map_err(|error| error.in_file(arguments.scene.display().to_string()))?;
+    progress.clear();
+    let json = result.to_json();
+    if let Some(output) = &output {
+        output.write(json.as_bytes())?;
+    }
+    match &output {
+        // Standard output carries the data already.
+        Some(output) if output.is_standard_output() => Ok(()),
+        _ if arguments.json => print_bytes(json.as_bytes()),
+        _ => print_bytes(
+            summary::of(&result, &arguments.next_steps(&result), output.as_ref()).as_bytes(),
+        ),
+    }
+}

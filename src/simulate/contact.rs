@@ -1,0 +1,229 @@
+//! The rules of the collision: where the bodies touch, that they approach, how hard they strike.
+
+use nalgebra::{UnitVector3, Vector3};
+
+use super::CollisionSpec;
+use super::check::{Actor, Partner};
+use super::value::{absent, direction, finite, required, vector};
+use crate::rigid_body::{Contact, RigidBody};
+use crate::scene::Shape;
+use crate::{Error, Result};
+
+/// How far a contact point may be off a body's surface: what one rounds to by hand, in m.
+const SURFACE_TOLERANCE_M: f64 = 1e-3;
+
+/// How far a contact point may be off a static plane, in m.
+const PLANE_TOLERANCE_M: f64 = 1e-6;
+
+/// Rounding that a restitution computed from an impulse may show beyond 0 and 1.
+const RESTITUTION_ROUNDING: f64 = 1e-9;
+
+/// The collision, checked.
+pub(super) struct Strike {
+    pub contact: Contact,
+    /// Per unit mass of a.
+    pub impulse_on_a: Vector3<f64>,
+    pub restitution: f64,
+}
+
+/// What the specification says of the collision's strength.
+enum Strength {
+    Restitution(f64),
+    Impulse(Vector3<f64>),
+}
+
+pub(super) fn check_strike(spec: &CollisionSpec, a: &Actor, partner: &Partner) -> Result<Strike> {
+    finite("collision.time", spec.time)?;
+    let point_in_world = vector("collision.contact_point", spec.contact_point)?;
+    check_on_plane(partner, &point_in_world)?;
+    for actor in std::iter::once(a).chain(partner.body()) {
+        check_on_surface(actor, &point_in_world)?;
+    }
+    let strength = strength(spec)?;
+    let normal_in_world = normal(spec, partner, &strength)?;
+    let contact = Contact {
+        point_in_world,
+        normal_in_world,
+    };
+    let other = partner.body().map(|actor| &actor.before);
+    check_approach(&contact, &a.before, other)?;
+    let (impulse_on_a, restitution) = match strength {
+        Strength::Restitution(restitution) => (
+            contact.impulse_from_restitution(&a.before, other, restitution),
+            restitution,
+        ),
+        Strength::Impulse(impulse) => (
+            impulse,
+            restitution_of(&contact, &a.before, other, &impulse)?,
+        ),
+    };
+    Ok(Strike {
+        contact,
+        impulse_on_a,
+        restitution,
+    })
+}
+
+fn check_on_plane(partner: &Partner, point_in_world: &Vector3<f64>) -> Result<()> {
+    let Partner::Plane(plane) = partner else {
+        return Ok(());
+    };
+    let off_m = plane.normal_in_world.dot(point_in_world) - plane.height_m;
+    if off_m.abs() <= PLANE_TOLERANCE_M {
+        return Ok(());
+    }
+    let foot = point_in_world - off_m * plane.normal_in_world.into_inner();
+    let problem = format!("is {:.6} m off the plane `{}`", off_m.abs(), plane.name);
+    Err(
+        Error::invalid("collision.contact_point", problem).mend(format!(
+            "the nearest point of the plane is {}",
+            shown(&foot)
+        )),
+    )
+}
+
+fn check_on_surface(actor: &Actor, point_in_world: &Vector3<f64>) -> Result<()> {
+    let body = &actor.before;
+    let lever = point_in_world - body.position_in_world;
+    let in_body = body.world_from_body.inverse_transform_vector(&lever);
+    let nearest = nearest_surface_point(&actor.shape, &in_body);
+    let off_m = (nearest - in_body).norm();
+    if off_m <= SURFACE_TOLERANCE_M {
+        return Ok(());
+    }
+    let nearest_in_world = body.position_in_world + body.world_from_body.transform_vector(&nearest);
+    let problem = format!("is {off_m:.4} m off the surface of `{}`", actor.name);
+    Err(
+        Error::invalid("collision.contact_point", problem).mend(format!(
+            "move the point or the body; the nearest point of its surface is {}",
+            shown(&nearest_in_world)
+        )),
+    )
+}
+
+fn nearest_surface_point(shape: &Shape, point_in_body: &Vector3<f64>) -> Vector3<f64> {
+    match *shape {
+        Shape::Sphere { radius } => {
+            let out = point_in_body.try_normalize(0.0).unwrap_or_else(Vector3::x);
+            radius * out
+        }
+        Shape::Box { size } => {
+            let half = Vector3::from(size) / 2.0;
+            let mut nearest = point_in_body.zip_map(&half, |x, h| x.clamp(-h, h));
+            let depth = half - nearest.abs();
+            if depth.min() > 0.0 {
+                // Within: straight out through the nearest face.
+                let axis = depth.imin();
+                nearest[axis] = half[axis].copysign(point_in_body[axis]);
+            }
+            nearest
+        }
+    }
+}
+
+fn strength(spec: &CollisionSpec) -> Result<Strength> {
+    match (spec.restitution, spec.impulse) {
+        (Some(restitution), None) if (0.0..=1.0).contains(&restitution) => {
+            Ok(Strength::Restitution(restitution))
+        }
+        (Some(restitution), None) => Err(Error::invalid(
+            "collision.restitution",
+            format!("is {restitution}"),
+        )
+        .mend("give a number from 0 (no bounce) to 1 (no loss of energy)")),
+        (None, Some(impulse)) => Ok(Strength::Impulse(vector("collision.impulse", impulse)?)),
+        (None, None) => Err(
+            Error::invalid("collision", "has neither `restitution` nor `impulse`")
+                .mend("give one of them"),
+        ),
+        (Some(_), Some(_)) => Err(
+            Error::invalid("collision", "has `restitution` and `impulse`")
+                .mend("keep one of them: the other follows"),
+        ),
+    }
+}
+
+fn normal(
+    spec: &CollisionSpec,
+    partner: &Partner,
+    strength: &Strength,
+) -> Result<UnitVector3<f64>> {
+    let place = "collision.normal";
+    match (partner, strength) {
+        (Partner::Plane(plane), _) => {
+            absent(
+                place,
+                &spec.normal,
+                "leave it out: the static body has its own",
+            )?;
+            if let Strength::Impulse(impulse) = strength {
+                check_along_normal(impulse, &plane.normal_in_world)?;
+            }
+            Ok(plane.normal_in_world)
+        }
+        (Partner::Body(_), Strength::Impulse(impulse)) => {
+            absent(
+                place,
+                &spec.normal,
+                "leave it out: it is the impulse's direction",
+            )?;
+            UnitVector3::try_new(*impulse, 0.0).ok_or_else(|| {
+                Error::invalid("collision.impulse", "is zero").mend("give the push on a")
+            })
+        }
+        (Partner::Body(_), Strength::Restitution(_)) => {
+            let why = "give the unit vector along the impulse on a, out of b into a";
+            direction(place, required(place, spec.normal, why)?)
+        }
+    }
+}
+
+fn check_along_normal(impulse: &Vector3<f64>, normal: &UnitVector3<f64>) -> Result<()> {
+    let along = normal.dot(impulse);
+    let across = (impulse - along * normal.into_inner()).norm();
+    if across <= 1e-9 * impulse.norm() {
+        return Ok(());
+    }
+    let frictionless = along * normal.into_inner();
+    let problem = format!("has {across:.6} N·s/kg across the plane's normal: friction");
+    Err(Error::invalid("collision.impulse", problem)
+        .mend(format!("without friction it is {}", shown(&frictionless))))
+}
+
+fn check_approach(contact: &Contact, a: &RigidBody, other: Option<&RigidBody>) -> Result<()> {
+    let parting = contact.normal_velocity(a, other);
+    if parting < 0.0 {
+        return Ok(());
+    }
+    let problem = format!("the bodies don't approach there: they part with {parting:.6} m/s");
+    Err(Error::invalid("collision", problem).mend(
+        "velocities are those just before the impulse; the normal points out of b (or the plane) \
+         into a",
+    ))
+}
+
+/// The restitution that `impulse` amounts to.
+fn restitution_of(
+    contact: &Contact,
+    a: &RigidBody,
+    other: Option<&RigidBody>,
+    impulse: &Vector3<f64>,
+) -> Result<f64> {
+    let point = &contact.point_in_world;
+    let a_after = a.pushed(point, impulse);
+    let other_after = other.map(|b| b.pushed(point, &-impulse));
+    let restitution = contact.restitution((a, other), (&a_after, other_after.as_ref()));
+    if (-RESTITUTION_ROUNDING..=1.0 + RESTITUTION_ROUNDING).contains(&restitution) {
+        return Ok(restitution);
+    }
+    let least = contact.impulse_from_restitution(a, other, 0.0).norm();
+    let problem = format!("makes the restitution {restitution:.6}");
+    Err(Error::invalid("collision.impulse", problem).mend(format!(
+        "give it a length from {least:.6} (no bounce) to {:.6} N·s/kg (no loss of energy)",
+        2.0 * least
+    )))
+}
+
+fn shown(point: &Vector3<f64>) -> String {
+    format!("[{:.6}, {:.6}, {:.6}]", point.x, point.y, point.z)
+}

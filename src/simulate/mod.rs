@@ -1,0 +1,78 @@
+//! The dynamics run forwards: from bodies and their collision to the scene that one would see.
+//!
+//! ```text
+//! specification ──► check ──► motion ──► sample ──► noise ──► scene
+//! (json)                        └─────────────────────────────► truth
+//! ```
+
+mod check;
+mod clearance;
+mod contact;
+mod instant;
+mod motion;
+mod noise;
+mod observe;
+mod random;
+mod sampling;
+mod spec;
+mod truth;
+mod value;
+
+pub use motion::Motion;
+pub use noise::{NoiseSpec, add_noise};
+pub use sampling::{RegularSampling, Sampling, keep_frames};
+pub use spec::{BodySpec, CollisionSpec, SIMULATION_SCHEMA, SimulationSpec};
+pub use truth::{TRUTH_SCHEMA, TrueBody, Truth};
+
+use crate::Result;
+use crate::scene::SceneFile;
+use check::{Setup, setup};
+use observe::{check_effort, check_finite, scene_file};
+use truth::truth;
+
+/// What was simulated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulation {
+    /// What is seen: noisy if the specification says so.
+    pub scene_file: SceneFile,
+    /// What it was made with.
+    pub truth: Truth,
+    /// How the dynamic bodies really move, a first: their exact pose at any time.
+    pub motions: Vec<Motion>,
+}
+
+/// Runs the dynamics of `spec` forwards and observes the bodies.
+///
+/// # Errors
+/// The specification breaks a rule: the error names the field, the value and the mend.
+pub fn simulate(spec: &SimulationSpec) -> Result<Simulation> {
+    let setup = setup(spec)?;
+    let motions = motions(spec, &setup);
+    check_effort(&setup, &motions)?;
+    let exact = scene_file(spec, &setup, &motions);
+    let scene_file = add_noise(exact, &spec.noise, spec.seed);
+    check_finite(&scene_file)?;
+    Ok(Simulation {
+        scene_file,
+        truth: truth(spec, &setup, &motions),
+        motions,
+    })
+}
+
+/// How the dynamic bodies move, a first: **J** acts on a, −**J** on b.
+fn motions(spec: &SimulationSpec, setup: &Setup) -> Vec<Motion> {
+    let impulse_on_a = setup.strike.impulse_on_a;
+    let pushes = [impulse_on_a, -impulse_on_a];
+    setup
+        .actors()
+        .zip(pushes)
+        .map(|(actor, impulse)| Motion {
+            collision_time_s: spec.collision.time,
+            gravity_in_world: -spec.gravity * setup.up_in_world.into_inner(),
+            before: actor.before,
+            after: actor
+                .before
+                .pushed(&setup.strike.contact.point_in_world, &impulse),
+        })
+        .collect()
+}

@@ -1,0 +1,1 @@
+//! The dynamics run forwards: what must hold in every simulated scene.
