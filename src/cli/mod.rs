@@ -1,8 +1,10 @@
 //! The commands of `smash`, one file each.
 
 mod doctor;
+mod import;
 mod progress;
 mod reconstruct;
+mod schema;
 mod simulate;
 mod summary;
 
@@ -25,6 +27,8 @@ enum Command {
     Reconstruct(reconstruct::Arguments),
     Simulate(simulate::Arguments),
     Doctor(doctor::Arguments),
+    Import(import::Arguments),
+    Schema(schema::Arguments),
 }
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
@@ -35,6 +39,8 @@ pub fn main() -> ExitCode {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -50,11 +56,6 @@ pub fn main() -> ExitCode {
 fn warn(warnings: &[Warning]) {
     for warning in warnings {
         // A closed standard error leaves nobody to tell.
-        let _ = writeln!(
-            std::io::stderr(),
-            "warning: {}\n  hint: {}",
-            warning.text,
-            warning.mend
-        );
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
 }

@@ -74,6 +74,13 @@ pub struct Warning {
     pub mend: String,
 }
 
+/// Prints as `text` and, on a second line, `hint: mend`, as errors do.
+impl std::fmt::Display for Warning {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{}\n  hint: {}", self.text, self.mend)
+    }
+}
+
 impl Scene {
     /// Free text from the file.
     pub fn name(&self) -> &str {
