@@ -9,9 +9,10 @@ use super::instant::{Instant, instants};
 use super::{BodySpec, NoiseSpec, SIMULATION_SCHEMA, SimulationSpec};
 use crate::json::check_schema;
 use crate::rigid_body::RigidBody;
+use crate::scene::body::check_shape;
 use crate::scene::bounds::{FPS, GRAVITY_M_S2, NOISE, POSITION_M};
-use crate::scene::check::{
-    check_name, check_range, check_shape, needed, position, refuse, unit_quaternion, unit_vector,
+use crate::scene::values::{
+    check_name, check_range, needed, position, refuse, unit_quaternion, unit_vector,
 };
 use crate::scene::{Shape, StaticPlane};
 use crate::{Error, Result};

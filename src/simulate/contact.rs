@@ -7,7 +7,7 @@ use super::check::{Actor, Partner};
 use crate::rigid_body::{Contact, RigidBody};
 use crate::scene::Shape;
 use crate::scene::bounds::TIME_S;
-use crate::scene::check::{check_range, needed, position, refuse, unit_vector};
+use crate::scene::values::{check_range, needed, position, refuse, unit_vector};
 use crate::{Error, Result};
 
 /// How far a contact point may be off a body's surface: what one rounds to by hand, in m.

@@ -428,7 +428,8 @@ fn absurd_scenes_end_in_a_result_or_a_message() {
             pose["orientation"] = json!([1, 0, 0, 0]);
         }
     };
-    let edits: [(&str, &dyn Fn(&mut Value)); 8] = [
+    type Edit<'a> = &'a dyn Fn(&mut Value);
+    let edits: [(&str, Edit); 8] = [
         ("all at rest in one point", &|s| {
             s["gravity"] = json!(0);
             (0..2).for_each(|body| still(s, body));

@@ -1,7 +1,7 @@
 //! All integration tests, in one binary: one module a topic. `tests/README.md` says what each
 //! kind of test proves.
 
-// The helpers of tests are tests too: a panic is how they fail.
+// A test fails by panicking, in its helpers too.
 #![allow(clippy::unwrap_used)]
 
 mod bad_input;

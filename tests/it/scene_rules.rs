@@ -343,7 +343,7 @@ const PLANE_RULES: &[Rule] = &[
     (
         |s| s["bodies"][1]["normal"] = json!([0, 0.9, 0]),
         "bodies[1].normal",
-        &["length 9.0", "[0.0"],
+        &["length 0.9", "[0.0"],
     ),
     (
         |s| s["bodies"][1]["height"] = json!(1e7),
