@@ -94,8 +94,17 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for part in [&self.file, &self.place].into_iter().flatten() {
-            write!(out, "{part}: ")?;
+        if let Some(file) = &self.file {
+            write!(out, "{file}: ")?;
+        }
+        if let Some(place) = &self.place {
+            // People count from 1, JSON's readers from 0.
+            let base = if place.contains('[') {
+                " (counted from 0)"
+            } else {
+                ""
+            };
+            write!(out, "{place}{base}: ")?;
         }
         write!(out, "{}", self.problem)?;
         match &self.mend {

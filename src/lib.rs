@@ -7,6 +7,7 @@
 //! ```
 
 pub mod files;
+pub mod import;
 pub mod reconstruct;
 pub mod rigid_body;
 pub mod scene;
@@ -15,11 +16,13 @@ pub mod simulate;
 mod bridge;
 mod error;
 mod json;
+mod schema;
 mod words;
 
 pub use error::{Error, ErrorKind, Result};
 pub use reconstruct::{Options, Reconstruction, reconstruct, reconstruct_with_progress};
 pub use scene::Scene;
+pub use schema::{SchemaKind, schema};
 
 /// The version of Ceres Solver that this was built with.
 pub fn ceres_version() -> String {

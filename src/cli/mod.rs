@@ -1,8 +1,10 @@
 //! The commands of `smash`, one file each.
 
 mod doctor;
+mod import;
 mod progress;
 mod reconstruct;
+mod schema;
 mod summary;
 
 use std::io::Write;
@@ -23,6 +25,8 @@ struct Arguments {
 enum Command {
     Reconstruct(reconstruct::Arguments),
     Doctor(doctor::Arguments),
+    Import(import::Arguments),
+    Schema(schema::Arguments),
 }
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
@@ -32,6 +36,8 @@ pub fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -47,11 +53,6 @@ pub fn main() -> ExitCode {
 fn warn(warnings: &[Warning]) {
     for warning in warnings {
         // A closed standard error leaves nobody to tell.
-        let _ = writeln!(
-            std::io::stderr(),
-            "warning: {}\n  hint: {}",
-            warning.text,
-            warning.mend
-        );
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
 }

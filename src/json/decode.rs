@@ -19,13 +19,9 @@ use crate::{Error, Result};
 /// and a mend.
 pub(crate) fn decode<T: DeserializeOwned>(text: &str, file: &str, schema: &str) -> Result<T> {
     let decode_tree = |tree: &Tree| {
-        if let Tree::Object(fields) = tree {
-            let named = fields.iter().find(|(key, _)| key == "schema");
-            match named.map(|(_, value)| value) {
-                Some(Tree::Text(found)) => check_schema(found, schema)?,
-                // The struct has that field: decoding says what is missing or wrong.
-                None | Some(_) => {}
-            }
+        // Without this field, or with another value, decoding says what is wrong.
+        if let Some(Tree::Text(found)) = tree.field("schema") {
+            check_schema(found, schema)?;
         }
         serde_path_to_error::deserialize(tree).map_err(|error| {
             let place = place(error.path());

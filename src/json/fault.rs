@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::de::{self, Expected, Unexpected};
 
-use crate::words::{did_you_mean, quoted, shortened};
+use crate::words::{did_you_mean, shortened};
 use crate::{Error, ErrorKind};
 
 /// A broken expectation, in parts that a message can be made of.
@@ -30,10 +30,10 @@ impl Fault {
     /// The message, for the value at `place`.
     pub(super) fn into_error(self, place: String) -> Error {
         let (problem, mend) = match self {
-            Fault::UnknownField { name, known } => (
-                format!("the field {} is unknown", quoted(&name)),
-                did_you_mean(&name, known),
-            ),
+            // The path leads to the field itself.
+            Fault::UnknownField { name, known } => {
+                ("is an unknown field".into(), did_you_mean(&name, known))
+            }
             Fault::UnknownWord { word, known } => (
                 format!("is \"{}\", which is unknown", shortened(&word)),
                 did_you_mean(&word, known),

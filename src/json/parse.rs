@@ -113,9 +113,6 @@ impl<'de> Visitor<'de> for Values<'_> {
 /// The parser's words, with the text that it stumbled over and a mend.
 fn explained(error: &serde_json::Error, text: &str) -> Error {
     let place = format!("line {}, column {}", error.line(), error.column());
-    if text.trim().is_empty() {
-        return Error::new(ErrorKind::Parse, "is empty").mend("was it saved? it should hold JSON");
-    }
     let said = error.to_string();
     let said = said.split(" at line ").next().unwrap_or(&said);
     let word = word_at(text, error.line(), error.column());
@@ -123,7 +120,9 @@ fn explained(error: &serde_json::Error, text: &str) -> Error {
     let bare_number = not_finite
         .iter()
         .any(|one| word.to_lowercase().starts_with(one));
-    let (problem, mend) = if error.is_eof() {
+    let (problem, mend) = if text.trim().is_empty() {
+        ("is empty".into(), "was it saved? it should hold JSON")
+    } else if error.is_eof() {
         (
             "the text ends too early".into(),
             "the file seems to be cut short: save or copy it again",
@@ -189,6 +188,17 @@ fn first_char(text: &str) -> &str {
 }
 
 impl Tree {
+    /// The value of an object's field.
+    pub(super) fn field(&self, name: &str) -> Option<&Tree> {
+        let Tree::Object(fields) = self else {
+            return None;
+        };
+        fields
+            .iter()
+            .find(|(key, _)| key == name)
+            .map(|(_, value)| value)
+    }
+
     /// The value as a message shows it: whole if short, else its kind.
     pub(super) fn shown(&self) -> String {
         match self {

@@ -3,8 +3,11 @@
 use serde::Serialize;
 use serde_json::Value;
 
+/// The longest line that holds more than one value: an observation with all its digits.
+const LONGEST_LINE: usize = 240;
+
 /// `value` as indented JSON with a final newline. What is no deeper than a list within an object
-/// (an observation, a shape) stays on one line.
+/// (an observation, a shape) stays on one line, if it isn't too long.
 pub(crate) fn pretty<T: Serialize>(value: &T) -> String {
     let tree = serde_json::to_value(value).expect("our structs have text keys and plain values");
     let mut text = String::new();
@@ -14,7 +17,7 @@ pub(crate) fn pretty<T: Serialize>(value: &T) -> String {
 }
 
 fn write(value: &Value, indent: usize, text: &mut String) {
-    let broken = height(value) > 2;
+    let broken = height(value) > 2 || value.to_string().len() > LONGEST_LINE;
     match value {
         Value::Array(items) => {
             write_items(

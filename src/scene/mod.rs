@@ -3,6 +3,7 @@
 //! [`SceneFile`] is the file; [`Scene`] is the same after every rule was checked, with times in
 //! seconds, sorted, and unit quaternions. A `Scene` can only be made through those checks.
 
+mod body;
 mod bounds;
 mod check;
 mod file;
@@ -10,6 +11,7 @@ mod gaps;
 mod order;
 mod read;
 mod units;
+mod values;
 mod warn;
 
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};
@@ -72,6 +74,13 @@ pub struct Warning {
     pub text: String,
     /// What to do about it.
     pub mend: String,
+}
+
+/// Prints as `text` and, on a second line, `hint: mend`, as errors do.
+impl std::fmt::Display for Warning {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{}\n  hint: {}", self.text, self.mend)
+    }
 }
 
 impl Scene {

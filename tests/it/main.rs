@@ -1,8 +1,17 @@
 //! All integration tests, in one binary: one module a topic. `tests/README.md` says what each
 //! kind of test proves.
 
+// A test fails by panicking, in its helpers too.
+#![allow(clippy::unwrap_used)]
+
+mod bad_input;
 mod collision;
 mod docs;
 mod free_rotation;
+mod import;
 mod installation;
+mod scene_rules;
+mod scene_warnings;
+mod scenes;
+mod schema;
 mod simulate;

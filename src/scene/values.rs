@@ -1,0 +1,117 @@
+//! The rules of single values: ranges, unit lengths, names.
+
+use std::ops::RangeInclusive;
+
+use nalgebra::{Quaternion, UnitQuaternion, UnitVector3, Vector3};
+
+use super::bounds::{LONGEST_NAME, POSITION_M, UNIT_TOLERANCE};
+use crate::words::quoted;
+use crate::{Error, Result};
+
+/// Names stand in tables and on terminals.
+pub(super) fn check_name(place: &str, name: &str) -> Result<()> {
+    let letters = name.chars().count();
+    if letters > LONGEST_NAME {
+        let problem = format!("{} has {letters} letters", quoted(name));
+        return Err(Error::invalid(place, problem)
+            .mend(format!("shorten it to {LONGEST_NAME} letters or fewer")));
+    }
+    if name.chars().any(char::is_control) {
+        let problem = format!("{} holds control characters", quoted(name));
+        return Err(Error::invalid(place, problem).mend("use letters, digits and spaces"));
+    }
+    Ok(())
+}
+
+/// A point in the world, in m.
+pub(super) fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
+    for (axis, &value) in coordinates.iter().enumerate() {
+        check_range(
+            &format!("{place}[{axis}]"),
+            value,
+            &POSITION_M,
+            "give coordinates in m",
+        )?;
+    }
+    Ok(Vector3::from(coordinates))
+}
+
+pub(super) fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVector3<f64>> {
+    let length = unit_length(place, &coordinates)?;
+    Ok(UnitVector3::new_unchecked(
+        Vector3::from(coordinates) / length,
+    ))
+}
+
+pub(super) fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
+    let length = unit_length(place, &wxyz)?;
+    let [w, x, y, z] = wxyz;
+    Ok(UnitQuaternion::new_unchecked(
+        Quaternion::new(w, x, y, z) / length,
+    ))
+}
+
+/// The length of what should have length 1; exactly 1 if it is 1 but for rounding, so that what
+/// was normalised once stays as it is.
+fn unit_length(place: &str, values: &[f64]) -> Result<f64> {
+    let length = values.iter().fold(0.0, |sum: f64, value| sum.hypot(*value));
+    if (length - 1.0).abs() <= 4.0 * f64::EPSILON {
+        return Ok(1.0);
+    }
+    // Written so that a NaN fails.
+    if (length - 1.0).abs() <= UNIT_TOLERANCE {
+        return Ok(length);
+    }
+    // Seven digits are enough to see what is wrong.
+    let problem = format!("{values:?} has length {}, not 1", length as f32);
+    let error = Error::invalid(place, problem);
+    Err(if length == 0.0 && values.len() == 4 {
+        error.mend("leave `orientation` out if it wasn't measured")
+    } else if length.is_normal() && length < 1e100 {
+        let unit: Vec<_> = values
+            .iter()
+            .map(|value| format!("{:.6}", value / length))
+            .collect();
+        error.mend(format!("divide it by its length: [{}]", unit.join(", ")))
+    } else {
+        error.mend("give a vector of length 1")
+    })
+}
+
+/// A NaN is in no range.
+pub(super) fn check_range(
+    place: &str,
+    value: f64,
+    range: &RangeInclusive<f64>,
+    mend: &str,
+) -> Result<()> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    let problem = format!(
+        "{value:?} is not within {:e} to {:e}",
+        range.start(),
+        range.end()
+    );
+    Err(Error::invalid(place, problem).mend(mend))
+}
+
+/// A field that this kind of body has.
+pub(super) fn needed<T>(place: &str, field: &str, value: Option<T>, why: &str) -> Result<T> {
+    value.ok_or_else(|| {
+        Error::invalid(place, format!("the field `{field}` is missing: {why}"))
+            .mend(format!("add `{field}`"))
+    })
+}
+
+/// A field that this kind of body hasn't.
+pub(super) fn refuse(place: &str, field: &str, is_there: bool, why: &str) -> Result<()> {
+    if is_there {
+        return Err(Error::invalid(
+            format!("{place}.{field}"),
+            format!("is out of place: {why}"),
+        )
+        .mend(format!("remove `{field}`")));
+    }
+    Ok(())
+}

@@ -1,0 +1,29 @@
+//! JSON Schemas of the files, made from the types that read and write them.
+
+use schemars::generate::SchemaSettings;
+
+use crate::json::pretty;
+use crate::reconstruct::Reconstruction;
+use crate::scene::SceneFile;
+
+/// The files that have a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[non_exhaustive]
+pub enum SchemaKind {
+    /// What was observed: `smash.scene/1`
+    Scene,
+    /// How the bodies collided: `smash.result/1`
+    Result,
+}
+
+/// The JSON Schema (draft 2020-12) of files of this kind, as text.
+///
+/// What it can't express (sums over several fields, unit lengths, times in order) is checked when
+/// a file is read.
+pub fn schema(kind: SchemaKind) -> String {
+    let generator = SchemaSettings::draft2020_12().into_generator();
+    pretty(&match kind {
+        SchemaKind::Scene => generator.into_root_schema_for::<SceneFile>(),
+        SchemaKind::Result => generator.into_root_schema_for::<Reconstruction>(),
+    })
+}
