@@ -5,6 +5,7 @@ use schemars::generate::SchemaSettings;
 use crate::json::pretty;
 use crate::reconstruct::Reconstruction;
 use crate::scene::SceneFile;
+use crate::simulate::{SimulationSpec, Truth};
 
 /// The files that have a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -14,6 +15,10 @@ pub enum SchemaKind {
     Scene,
     /// How the bodies collided: `smash.result/1`
     Result,
+    /// What to simulate: `smash.simulation/1`
+    Simulation,
+    /// What a simulated scene was made with: `smash.truth/1`
+    Truth,
 }
 
 /// The JSON Schema (draft 2020-12) of files of this kind, as text.
@@ -25,5 +30,7 @@ pub fn schema(kind: SchemaKind) -> String {
     pretty(&match kind {
         SchemaKind::Scene => generator.into_root_schema_for::<SceneFile>(),
         SchemaKind::Result => generator.into_root_schema_for::<Reconstruction>(),
+        SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),
+        SchemaKind::Truth => generator.into_root_schema_for::<Truth>(),
     })
 }

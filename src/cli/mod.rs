@@ -5,6 +5,7 @@ mod import;
 mod progress;
 mod reconstruct;
 mod schema;
+mod simulate;
 mod summary;
 
 use std::io::Write;
@@ -24,6 +25,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Reconstruct(reconstruct::Arguments),
+    Simulate(simulate::Arguments),
     Doctor(doctor::Arguments),
     Import(import::Arguments),
     Schema(schema::Arguments),
@@ -35,6 +37,7 @@ pub fn main() -> ExitCode {
     smash::silence_solver_log();
     let outcome = match Arguments::parse().command {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

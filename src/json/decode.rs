@@ -1,6 +1,6 @@
 //! A tree to a struct of ours, with the path to whatever is wrong.
 
-use serde::de::value::{MapDeserializer, SeqDeserializer, StrDeserializer};
+use serde::de::value::{MapAccessDeserializer, MapDeserializer, SeqDeserializer, StrDeserializer};
 use serde::de::{
     DeserializeOwned, Deserializer, Error as _, IntoDeserializer, Unexpected, Visitor,
 };
@@ -147,6 +147,11 @@ impl<'de> Deserializer<'de> for &'de Tree {
     ) -> std::result::Result<V::Value, Fault> {
         match self {
             Tree::Text(word) => visitor.visit_enum(StrDeserializer::new(word)),
+            // The word is the only field's name; the field holds what belongs to it.
+            Tree::Object(fields) if fields.len() == 1 => {
+                let pairs = fields.iter().map(|(key, value)| (key.as_str(), value));
+                visitor.visit_enum(MapAccessDeserializer::new(MapDeserializer::new(pairs)))
+            }
             _ => {
                 let expected = crate::words::listed(known);
                 Err(Fault::Wrong {

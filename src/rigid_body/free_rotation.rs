@@ -5,7 +5,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::omega_in_world;
 
 /// The largest angle of one step, in rad. RKMK4's global error goes with its fourth power; at
-/// this angle a body with moments 1:2:3 that has turned by 20 rad is off by some 1e-11 rad.
+/// this angle solids from cubes to rods are off by less than 1e-9 rad after 20 rad.
 const LARGEST_STEP_RAD: f64 = 0.01;
 
 /// The orientation `duration_s` seconds later (earlier when negative) of a body that rotates

@@ -83,7 +83,7 @@ pub(super) fn dynamic_body(
     })
 }
 
-fn check_shape(place: &str, shape: &Shape) -> Result<()> {
+pub(crate) fn check_shape(place: &str, shape: &Shape) -> Result<()> {
     let mend = "give lengths in m, above 0";
     match *shape {
         Shape::Box { size } => size.iter().enumerate().try_for_each(|(axis, &edge)| {

@@ -3,15 +3,15 @@
 //! [`SceneFile`] is the file; [`Scene`] is the same after every rule was checked, with times in
 //! seconds, sorted, and unit quaternions. A `Scene` can only be made through those checks.
 
-mod body;
-mod bounds;
+pub(crate) mod body;
+pub(crate) mod bounds;
 mod check;
 mod file;
 mod gaps;
 mod order;
 mod read;
 mod units;
-mod values;
+pub(crate) mod values;
 mod warn;
 
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};

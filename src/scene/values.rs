@@ -9,7 +9,7 @@ use crate::words::quoted;
 use crate::{Error, Result};
 
 /// Names stand in tables and on terminals.
-pub(super) fn check_name(place: &str, name: &str) -> Result<()> {
+pub(crate) fn check_name(place: &str, name: &str) -> Result<()> {
     let letters = name.chars().count();
     if letters > LONGEST_NAME {
         let problem = format!("{} has {letters} letters", quoted(name));
@@ -24,7 +24,7 @@ pub(super) fn check_name(place: &str, name: &str) -> Result<()> {
 }
 
 /// A point in the world, in m.
-pub(super) fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
+pub(crate) fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
     for (axis, &value) in coordinates.iter().enumerate() {
         check_range(
             &format!("{place}[{axis}]"),
@@ -36,14 +36,14 @@ pub(super) fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64
     Ok(Vector3::from(coordinates))
 }
 
-pub(super) fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVector3<f64>> {
+pub(crate) fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVector3<f64>> {
     let length = unit_length(place, &coordinates)?;
     Ok(UnitVector3::new_unchecked(
         Vector3::from(coordinates) / length,
     ))
 }
 
-pub(super) fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
+pub(crate) fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
     let length = unit_length(place, &wxyz)?;
     let [w, x, y, z] = wxyz;
     Ok(UnitQuaternion::new_unchecked(
@@ -79,7 +79,7 @@ fn unit_length(place: &str, values: &[f64]) -> Result<f64> {
 }
 
 /// A NaN is in no range.
-pub(super) fn check_range(
+pub(crate) fn check_range(
     place: &str,
     value: f64,
     range: &RangeInclusive<f64>,
@@ -97,7 +97,7 @@ pub(super) fn check_range(
 }
 
 /// A field that this kind of body has.
-pub(super) fn needed<T>(place: &str, field: &str, value: Option<T>, why: &str) -> Result<T> {
+pub(crate) fn needed<T>(place: &str, field: &str, value: Option<T>, why: &str) -> Result<T> {
     value.ok_or_else(|| {
         Error::invalid(place, format!("the field `{field}` is missing: {why}"))
             .mend(format!("add `{field}`"))
@@ -105,7 +105,7 @@ pub(super) fn needed<T>(place: &str, field: &str, value: Option<T>, why: &str) -
 }
 
 /// A field that this kind of body hasn't.
-pub(super) fn refuse(place: &str, field: &str, is_there: bool, why: &str) -> Result<()> {
+pub(crate) fn refuse(place: &str, field: &str, is_there: bool, why: &str) -> Result<()> {
     if is_there {
         return Err(Error::invalid(
             format!("{place}.{field}"),

@@ -1,14 +1,27 @@
 //! Every rule of a specification, checked before anything is computed.
 
+use std::ops::RangeInclusive;
+
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use super::contact::{Strike, check_strike};
 use super::instant::{Instant, instants};
-use super::value::{absent, direction, finite, orientation, positive, required, vector};
 use super::{BodySpec, NoiseSpec, SIMULATION_SCHEMA, SimulationSpec};
+use crate::json::check_schema;
 use crate::rigid_body::RigidBody;
+use crate::scene::body::check_shape;
+use crate::scene::bounds::{FPS, GRAVITY_M_S2, NOISE, POSITION_M};
+use crate::scene::values::{
+    check_name, check_range, needed, position, refuse, unit_quaternion, unit_vector,
+};
 use crate::scene::{Shape, StaticPlane};
 use crate::{Error, Result};
+
+/// Speeds in m/s and spins in rad/s: far beyond what holds together.
+const RATE: RangeInclusive<f64> = -1e5..=1e5;
+
+/// A fly against a train is 1e-9; beyond it the heavier body may as well be static.
+const MASS_RATIO: RangeInclusive<f64> = 1e-9..=1e9;
 
 /// A specification after all checks, in the terms of mechanics.
 pub(super) struct Setup {
@@ -25,7 +38,7 @@ impl Setup {
     }
 }
 
-/// A dynamic body on the stage.
+/// A dynamic body.
 pub(super) struct Actor {
     /// Its place among the specification's bodies.
     pub index: usize,
@@ -33,12 +46,13 @@ pub(super) struct Actor {
     pub shape: Shape,
     /// Just before the impulse.
     pub before: RigidBody,
+    /// When it is seen.
     pub instants: Vec<Instant>,
 }
 
 /// What body a collides with.
 pub(super) enum Partner {
-    Body(Actor),
+    Body(Box<Actor>),
     Plane(StaticPlane),
 }
 
@@ -51,30 +65,16 @@ impl Partner {
     }
 }
 
-impl SimulationSpec {
-    /// Checks every rule, as [`simulate`](super::simulate) does before it computes anything.
-    ///
-    /// # Errors
-    /// The first broken rule: its field, the value and the mend.
-    pub fn check(&self) -> Result<()> {
-        setup(self).map(|_| ())
-    }
-}
-
 pub(super) fn setup(spec: &SimulationSpec) -> Result<Setup> {
-    if spec.schema != SIMULATION_SCHEMA {
-        return Err(Error::invalid("schema", format!("is `{}`", spec.schema))
-            .mend(format!("make it `{SIMULATION_SCHEMA}`")));
-    }
+    check_schema(&spec.schema, SIMULATION_SCHEMA)?;
+    check_name("name", &spec.name)?;
     if let Some(fps) = spec.fps {
-        positive("fps", fps)?;
+        check_range("fps", fps, &FPS, "give the frames per second")?;
     }
-    if finite("gravity", spec.gravity)? < 0.0 {
-        return Err(Error::invalid("gravity", format!("is {}", spec.gravity))
-            .mend("give its strength, 0 or more; `up` says where it points from"));
-    }
+    let mend = "give gravity in m/s², such as 9.81";
+    check_range("gravity", spec.gravity, &GRAVITY_M_S2, mend)?;
     check_noise(&spec.noise)?;
-    let up_in_world = direction("up", spec.up)?;
+    let up_in_world = unit_vector("up", spec.up)?;
     let (a, partner) = bodies(spec)?;
     let strike = check_strike(&spec.collision, &a, &partner)?;
     Ok(Setup {
@@ -89,14 +89,22 @@ fn check_noise(noise: &NoiseSpec) -> Result<()> {
     match *noise {
         NoiseSpec::None => Ok(()),
         NoiseSpec::Gaussian(sigma) => {
-            positive("noise.gaussian.position", sigma.position)?;
-            positive("noise.gaussian.orientation", sigma.orientation).map(|_| ())
+            let place = |field: &str| format!("noise.gaussian.{field}");
+            check_range(
+                &place("position"),
+                sigma.position,
+                &NOISE,
+                "give one σ in m, above 0",
+            )?;
+            let mend = "give one σ in rad, above 0";
+            check_range(&place("orientation"), sigma.orientation, &NOISE, mend)
         }
         NoiseSpec::Uniform(fraction) if fraction > 0.0 && fraction < 1.0 => Ok(()),
-        NoiseSpec::Uniform(fraction) => {
-            Err(Error::invalid("noise.uniform", format!("is {fraction}"))
-                .mend("give a fraction between 0 and 1, such as 0.05 for 5 %, or `\"none\"`"))
-        }
+        NoiseSpec::Uniform(fraction) => Err(Error::invalid(
+            "noise.uniform",
+            format!("{fraction:?} is not between 0 and 1"),
+        )
+        .mend("give a fraction, such as 0.05 for 5 %, or write `\"noise\": \"none\"`")),
     }
 }
 
@@ -107,31 +115,28 @@ fn bodies(spec: &SimulationSpec) -> Result<(Actor, Partner)> {
                 .mend("give two: two dynamic ones, or a dynamic and a static one"),
         );
     };
-    for (index, body) in spec.bodies.iter().enumerate() {
-        if body.name.is_empty() {
-            let place = format!("bodies[{index}].name");
-            return Err(Error::invalid(place, "is empty").mend("give each body a name"));
-        }
-    }
-    if first.name == second.name {
-        return Err(
-            Error::invalid("bodies[1].name", "is the same as the first body's")
-                .mend("give each body a name of its own"),
-        );
-    }
     let is_static = |body: &BodySpec| body.is_static == Some(true);
     match (is_static(first), is_static(second)) {
         (true, true) => Err(Error::invalid("bodies", "are both static")
             .mend("make the first a dynamic body: `shape`, `position`, `velocity`")),
         (false, false) => {
-            let why = "give the mass of the second body over that of the first";
-            let ratio = required("mass_ratio", spec.mass_ratio, why)?;
-            positive("mass_ratio", ratio)?;
-            Ok((actor(spec, 0, 1.0)?, Partner::Body(actor(spec, 1, ratio)?)))
+            let why = "it is the mass of the second body over that of the first";
+            let ratio = spec.mass_ratio.ok_or_else(|| {
+                Error::invalid("mass_ratio", "is missing").mend(format!("add it: {why}"))
+            })?;
+            check_range("mass_ratio", ratio, &MASS_RATIO, why)?;
+            Ok((
+                actor(spec, 0, 1.0)?,
+                Partner::Body(Box::new(actor(spec, 1, ratio)?)),
+            ))
         }
         (true, false) | (false, true) => {
-            let why = "leave it out: a static body's mass is infinite";
-            absent("mass_ratio", &spec.mass_ratio, why)?;
+            if spec.mass_ratio.is_some() {
+                return Err(
+                    Error::invalid("mass_ratio", "is out of place: one body is static")
+                        .mend("remove `mass_ratio`"),
+                );
+            }
             let (moving, standing) = if is_static(first) { (1, 0) } else { (0, 1) };
             Ok((
                 actor(spec, moving, 1.0)?,
@@ -143,56 +148,56 @@ fn bodies(spec: &SimulationSpec) -> Result<(Actor, Partner)> {
 
 fn actor(spec: &SimulationSpec, index: usize, mass: f64) -> Result<Actor> {
     let body = &spec.bodies[index];
-    let at = |field: &str| format!("bodies[{index}].{field}");
-    for (field, value) in [
-        ("normal", body.normal.is_some()),
-        ("height", body.height.is_some()),
-    ] {
-        let why = "only a static body has it; add `\"static\": true` if this is one";
-        absent(&at(field), &value.then_some(()), why)?;
-    }
-    let why = "a dynamic body needs it; a plane needs `\"static\": true`";
-    let shape = required(&at("shape"), body.shape, why)?;
-    check_shape(&at("shape"), &shape)?;
-    let at_rest = RigidBody::solid(&shape, mass);
-    let position = required(&at("position"), body.position, why)?;
-    let velocity = required(&at("velocity"), body.velocity, why)?;
+    let place = format!("bodies[{index}]");
+    let only_static = "only a body with `\"static\": true` has it";
+    refuse(&place, "normal", body.normal.is_some(), only_static)?;
+    refuse(&place, "height", body.height.is_some(), only_static)?;
+    let shape = needed(&place, "shape", body.shape, "a dynamic body has a shape")?;
+    check_shape(&place, &shape)?;
+    let why = "a dynamic body has a state just before the collision";
+    let centre = needed(&place, "position", body.position, why)?;
+    let velocity = needed(&place, "velocity", body.velocity, why)?;
+    let spin = body.angular_velocity.unwrap_or_default();
     let world_from_body = match body.orientation {
-        Some(value) => orientation(&at("orientation"), value)?,
+        Some(wxyz) => unit_quaternion(&format!("{place}.orientation"), wxyz)?,
         None => UnitQuaternion::identity(),
     };
-    let omega_in_world = match body.angular_velocity {
-        Some(value) => vector(&at("angular_velocity"), value)?,
-        None => Vector3::zeros(),
-    };
-    let before = RigidBody {
-        position_in_world: vector(&at("position"), position)?,
-        velocity_in_world: vector(&at("velocity"), velocity)?,
+    let at_rest = RigidBody {
+        position_in_world: position(&format!("{place}.position"), centre)?,
         world_from_body,
-        ..at_rest
+        ..RigidBody::solid(&shape, mass)
+    };
+    let spinning = at_rest.spinning(&rate(&format!("{place}.angular_velocity"), spin, "rad/s")?);
+    let before = RigidBody {
+        velocity_in_world: rate(&format!("{place}.velocity"), velocity, "m/s")?,
+        ..spinning
     };
     Ok(Actor {
         index,
         name: body.name.clone(),
         shape,
-        before: before.spinning(&omega_in_world),
+        before,
         instants: instants(spec, index)?,
     })
 }
 
-fn check_shape(place: &str, shape: &Shape) -> Result<()> {
-    match *shape {
-        Shape::Sphere { radius } => positive(&format!("{place}.radius"), radius).map(|_| ()),
-        Shape::Box { size } => size.into_iter().enumerate().try_for_each(|(axis, edge)| {
-            positive(&format!("{place}.size[{axis}]"), edge).map(|_| ())
-        }),
+/// A velocity or an angular velocity.
+fn rate(place: &str, value: [f64; 3], unit: &str) -> Result<Vector3<f64>> {
+    for (axis, &component) in value.iter().enumerate() {
+        check_range(
+            &format!("{place}[{axis}]"),
+            component,
+            &RATE,
+            &format!("give it in {unit}"),
+        )?;
     }
+    Ok(Vector3::from(value))
 }
 
 fn plane(spec: &SimulationSpec, index: usize) -> Result<StaticPlane> {
     let body = &spec.bodies[index];
-    let at = |field: &str| format!("bodies[{index}].{field}");
-    for (field, value) in [
+    let place = format!("bodies[{index}]");
+    for (field, is_there) in [
         ("shape", body.shape.is_some()),
         ("position", body.position.is_some()),
         ("orientation", body.orientation.is_some()),
@@ -201,15 +206,20 @@ fn plane(spec: &SimulationSpec, index: usize) -> Result<StaticPlane> {
         ("measure_orientation", body.measure_orientation.is_some()),
         ("observations", body.observations.is_some()),
     ] {
-        let why = "a static body has only `name`, `static`, `normal` and `height`";
-        absent(&at(field), &value.then_some(()), why)?;
+        refuse(&place, field, is_there, "a static body is a plane")?;
     }
     let why = "a static body is the plane normal·p = height";
-    let normal = required(&at("normal"), body.normal, why)?;
-    let height = required(&at("height"), body.height, why)?;
+    let normal = needed(&place, "normal", body.normal, why)?;
+    let height = needed(&place, "height", body.height, why)?;
+    check_range(
+        &format!("{place}.height"),
+        height,
+        &POSITION_M,
+        "give the height in m",
+    )?;
     Ok(StaticPlane {
         name: body.name.clone(),
-        normal_in_world: direction(&at("normal"), normal)?,
-        height_m: finite(&at("height"), height)?,
+        normal_in_world: unit_vector(&format!("{place}.normal"), normal)?,
+        height_m: height,
     })
 }

@@ -4,9 +4,10 @@ use nalgebra::{UnitVector3, Vector3};
 
 use super::CollisionSpec;
 use super::check::{Actor, Partner};
-use super::value::{absent, direction, finite, required, vector};
 use crate::rigid_body::{Contact, RigidBody};
 use crate::scene::Shape;
+use crate::scene::bounds::TIME_S;
+use crate::scene::values::{check_range, needed, position, refuse, unit_vector};
 use crate::{Error, Result};
 
 /// How far a contact point may be off a body's surface: what one rounds to by hand, in m.
@@ -33,8 +34,8 @@ enum Strength {
 }
 
 pub(super) fn check_strike(spec: &CollisionSpec, a: &Actor, partner: &Partner) -> Result<Strike> {
-    finite("collision.time", spec.time)?;
-    let point_in_world = vector("collision.contact_point", spec.contact_point)?;
+    check_range("collision.time", spec.time, &TIME_S, "give the time in s")?;
+    let point_in_world = position("collision.contact_point", spec.contact_point)?;
     check_on_plane(partner, &point_in_world)?;
     for actor in std::iter::once(a).chain(partner.body()) {
         check_on_surface(actor, &point_in_world)?;
@@ -131,7 +132,7 @@ fn strength(spec: &CollisionSpec) -> Result<Strength> {
             format!("is {restitution}"),
         )
         .mend("give a number from 0 (no bounce) to 1 (no loss of energy)")),
-        (None, Some(impulse)) => Ok(Strength::Impulse(vector("collision.impulse", impulse)?)),
+        (None, Some(impulse)) => Ok(Strength::Impulse(Vector3::from(impulse))),
         (None, None) => Err(
             Error::invalid("collision", "has neither `restitution` nor `impulse`")
                 .mend("give one of them"),
@@ -148,13 +149,14 @@ fn normal(
     partner: &Partner,
     strength: &Strength,
 ) -> Result<UnitVector3<f64>> {
-    let place = "collision.normal";
+    let is_there = spec.normal.is_some();
     match (partner, strength) {
         (Partner::Plane(plane), _) => {
-            absent(
-                place,
-                &spec.normal,
-                "leave it out: the static body has its own",
+            refuse(
+                "collision",
+                "normal",
+                is_there,
+                "the static body has its own",
             )?;
             if let Strength::Impulse(impulse) = strength {
                 check_along_normal(impulse, &plane.normal_in_world)?;
@@ -162,18 +164,20 @@ fn normal(
             Ok(plane.normal_in_world)
         }
         (Partner::Body(_), Strength::Impulse(impulse)) => {
-            absent(
-                place,
-                &spec.normal,
-                "leave it out: it is the impulse's direction",
+            refuse(
+                "collision",
+                "normal",
+                is_there,
+                "it is the impulse's direction",
             )?;
             UnitVector3::try_new(*impulse, 0.0).ok_or_else(|| {
                 Error::invalid("collision.impulse", "is zero").mend("give the push on a")
             })
         }
         (Partner::Body(_), Strength::Restitution(_)) => {
-            let why = "give the unit vector along the impulse on a, out of b into a";
-            direction(place, required(place, spec.normal, why)?)
+            let why = "the unit vector along the impulse on a, out of b into a";
+            let normal = needed("collision", "normal", spec.normal, why)?;
+            unit_vector("collision.normal", normal)
         }
     }
 }

@@ -1,14 +1,8 @@
 //! The instants at which a body is seen, as the specification asks for them.
 
-use super::value::{finite, required};
 use super::{Sampling, SimulationSpec};
+use crate::scene::bounds::{LEAST_POSES, MOST_OBSERVATIONS};
 use crate::{Error, Result};
-
-/// The most observations of a body, and the longest film in frames: half an hour at 60 fps.
-const MOST_FRAMES: usize = 100_000;
-
-/// The fewest poses on each side of the collision that a scene may have.
-const FEWEST_POSES: usize = 2;
 
 /// When a body is seen, and how the scene writes it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,11 +58,10 @@ pub(super) fn instants(spec: &SimulationSpec, index: usize) -> Result<Vec<Instan
 }
 
 fn fps(spec: &SimulationSpec) -> Result<f64> {
-    required(
-        "fps",
-        spec.fps,
-        "give the frames per second, or observe at `times`",
-    )
+    spec.fps.ok_or_else(|| {
+        Error::invalid("fps", "is missing, but observations count in frames")
+            .mend("add `fps`, the frames per second, or observe at `times`")
+    })
 }
 
 fn at_frames(spec: &SimulationSpec, frames: impl Iterator<Item = f64>) -> Result<Vec<Instant>> {
@@ -82,18 +75,15 @@ fn at_frames(spec: &SimulationSpec, frames: impl Iterator<Item = f64>) -> Result
 }
 
 fn check_count(place: &str, count: usize) -> Result<()> {
-    if count <= MOST_FRAMES {
+    if count <= MOST_OBSERVATIONS {
         return Ok(());
     }
     Err(Error::invalid(place, format!("asks for {count} frames"))
-        .mend(format!("give {MOST_FRAMES} or fewer")))
+        .mend(format!("give {MOST_OBSERVATIONS} or fewer")))
 }
 
 fn check_order(place: &str, values: &[f64]) -> Result<()> {
     check_count(place, values.len())?;
-    for (index, &value) in values.iter().enumerate() {
-        finite(&format!("{place}[{index}]"), value)?;
-    }
     match values.windows(2).position(|pair| pair[1] <= pair[0]) {
         None => Ok(()),
         Some(index) => Err(Error::invalid(
@@ -119,12 +109,12 @@ fn check_sides(
         .iter()
         .filter(|instant| instant.time_s > collision_s)
         .count();
-    if before >= FEWEST_POSES && after >= FEWEST_POSES {
+    if before >= LEAST_POSES && after >= LEAST_POSES {
         return Ok(());
     }
     let name = &spec.bodies[index].name;
     let problem = format!(
         "see `{name}` {before} times before the collision at {collision_s} s and {after} times after"
     );
-    Err(Error::invalid(place, problem).mend(format!("give {FEWEST_POSES} or more on each side")))
+    Err(Error::invalid(place, problem).mend(format!("give {LEAST_POSES} or more on each side")))
 }

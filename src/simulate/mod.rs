@@ -13,10 +13,10 @@ mod motion;
 mod noise;
 mod observe;
 mod random;
+mod read;
 mod sampling;
 mod spec;
 mod truth;
-mod value;
 
 pub use motion::Motion;
 pub use noise::{NoiseSpec, add_noise};
@@ -24,17 +24,19 @@ pub use sampling::{RegularSampling, Sampling, keep_frames};
 pub use spec::{BodySpec, CollisionSpec, SIMULATION_SCHEMA, SimulationSpec};
 pub use truth::{TRUTH_SCHEMA, TrueBody, Truth};
 
-use crate::Result;
 use crate::scene::SceneFile;
+use crate::{Result, Scene};
 use check::{Setup, setup};
-use observe::{check_effort, check_finite, scene_file};
+use observe::{check_effort, scene_file};
 use truth::truth;
 
 /// What was simulated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
-    /// What is seen: noisy if the specification says so.
+    /// What is seen, as a file: noisy if the specification says so.
     pub scene_file: SceneFile,
+    /// The same, checked: ready to be reconstructed.
+    pub scene: Scene,
     /// What it was made with.
     pub truth: Truth,
     /// How the dynamic bodies really move, a first: their exact pose at any time.
@@ -51,9 +53,10 @@ pub fn simulate(spec: &SimulationSpec) -> Result<Simulation> {
     check_effort(&setup, &motions)?;
     let exact = scene_file(spec, &setup, &motions);
     let scene_file = add_noise(exact, &spec.noise, spec.seed);
-    check_finite(&scene_file)?;
+    let scene = Scene::from_file(scene_file.clone())?;
     Ok(Simulation {
         scene_file,
+        scene,
         truth: truth(spec, &setup, &motions),
         motions,
     })

@@ -115,25 +115,3 @@ pub(super) fn components(world_from_body: &UnitQuaternion<f64>) -> [f64; 4] {
         world_from_body.k,
     ]
 }
-
-/// Refuses what left the range of numbers, such as a fall that lasts 1e200 s.
-pub(super) fn check_finite(scene_file: &SceneFile) -> Result<()> {
-    for (index, body) in scene_file.bodies.iter().enumerate() {
-        for (seen, observation) in body.observations.iter().flatten().enumerate() {
-            let orientation = observation.orientation.iter().flatten();
-            if !observation
-                .position
-                .iter()
-                .chain(orientation)
-                .all(|x| x.is_finite())
-            {
-                let place = format!("bodies[{index}].observations[{seen}]");
-                return Err(
-                    Error::invalid(place, "the pose leaves the range of numbers")
-                        .mend("give sizes in m, speeds in m/s and times in s of this world"),
-                );
-            }
-        }
-    }
-    Ok(())
-}

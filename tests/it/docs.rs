@@ -89,7 +89,9 @@ fn documents() -> Vec<Document> {
     let mut paths: Vec<PathBuf> = in_root
         .filter(|path| path.extension().is_some_and(|e| e == "md"))
         .collect();
-    paths.push(Path::new(ROOT).join("tests/README.md"));
+    for explained in ["tests/README.md", "scenes/README.md", "docs/simulation.md"] {
+        paths.push(Path::new(ROOT).join(explained));
+    }
     paths.sort();
     paths.iter().map(|path| Document::read(path)).collect()
 }

@@ -15,3 +15,4 @@ mod scene_warnings;
 mod scenes;
 mod schema;
 mod simulate;
+mod simulate_command;
