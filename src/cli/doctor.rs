@@ -5,9 +5,13 @@ use std::process::Command;
 
 use serde::Serialize;
 use smash::files::print_bytes;
+use smash::{Options, Scene};
 
 /// The list that `./setup` reads too.
 const DEPENDENCIES: &str = include_str!("../../scripts/dependencies.txt");
+
+/// What the solver is tried on.
+const SCENE: &str = include_str!("../../scenes/ball_on_floor.json");
 
 const INCLUDE_FOLDERS: [&str; 2] = ["/usr/include", "/usr/local/include"];
 
@@ -21,7 +25,12 @@ pub struct Arguments {
 
 #[derive(Serialize)]
 struct Health {
+    /// Of smash.
     version: &'static str,
+    /// The version of Ceres that smash was built with.
+    ceres: String,
+    /// Whether a scene that is built in could be reconstructed.
+    solver_works: bool,
     dependencies: Vec<Dependency>,
     /// The command that installs what is missing.
     install: Option<String>,
@@ -40,30 +49,53 @@ struct Dependency {
 }
 
 /// Prints the health of the installation.
+///
+/// # Errors
+/// The solver can't reconstruct a scene that it must.
 pub fn run(arguments: &Arguments) -> smash::Result<()> {
-    let health = Health::examine();
+    let trial = try_solver();
+    let health = Health::examine(trial.is_ok());
     let mut text = if arguments.json {
         serde_json::to_string_pretty(&health).expect("plain strings always serialise")
     } else {
         health.in_words()
     };
     text.push('\n');
-    print_bytes(text.as_bytes())
+    print_bytes(text.as_bytes())?;
+    trial
+}
+
+/// What is missing hinders a build; only a solver that fails hinders a run.
+fn try_solver() -> smash::Result<()> {
+    let scene = Scene::parse(SCENE, "scenes/ball_on_floor.json")?;
+    smash::reconstruct(&scene, &Options::default())
+        .map_err(|error| error.mend("build again with the Ceres that is installed: ./setup"))?;
+    Ok(())
 }
 
 impl Health {
-    fn examine() -> Health {
+    fn examine(solver_works: bool) -> Health {
         let lines = DEPENDENCIES.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
         let dependencies: Vec<Dependency> = lines.map(Dependency::look_for).collect();
         let missing: Vec<_> =
             dependencies.iter().filter(|d| d.place.is_none()).map(|d| d.package).collect();
         let install =
             (!missing.is_empty()).then(|| format!("sudo apt-get install {}", missing.join(" ")));
-        Health { version: env!("CARGO_PKG_VERSION"), dependencies, install }
+        Health {
+            version: env!("CARGO_PKG_VERSION"),
+            ceres: smash::ceres_version(),
+            solver_works,
+            dependencies,
+            install,
+        }
     }
 
     fn in_words(&self) -> String {
-        let mut lines = vec![format!("smash {} runs.", self.version)];
+        let mut lines = vec![format!("smash {}, built with Ceres {}", self.version, self.ceres)];
+        lines.push(match self.solver_works {
+            true => "The solver works.".into(),
+            false => "The solver doesn't work.".into(),
+        });
         for (work, title) in [("build", "To build it:"), ("style", "To check its style:")] {
             lines.push(format!("\n{title}"));
             lines.extend(self.dependencies.iter().filter(|d| d.work == work).map(|d| d.in_words()));

@@ -74,12 +74,12 @@ impl Document {
 
 /// The Markdown files at the root, and those that explain a folder.
 fn documents() -> Vec<Document> {
-    let in_root = fs::read_dir(ROOT).unwrap().map(|entry| entry.unwrap().path());
-    let mut paths: Vec<PathBuf> =
-        in_root.filter(|path| path.extension().is_some_and(|e| e == "md")).collect();
-    for explained in ["tests/README.md", "scenes/README.md", "docs/simulation.md"] {
-        paths.push(Path::new(ROOT).join(explained));
-    }
+    let folders = ["", "docs", "scenes", "tests"].map(|folder| Path::new(ROOT).join(folder));
+    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap());
+    let mut paths: Vec<PathBuf> = entries
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "md"))
+        .collect();
     paths.sort();
     paths.iter().map(|path| Document::read(path)).collect()
 }
