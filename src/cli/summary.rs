@@ -59,6 +59,9 @@ fn write_summary(
             "No flags: the fit shows none of the known signs of failure."
         )?;
     }
+    if output.is_none() && next.is_empty() {
+        return Ok(());
+    }
     writeln!(out, "\nNext")?;
     if let Some(output) = output {
         writeln!(out, "  the numbers are in {}", output.path().display())?;

@@ -394,25 +394,6 @@ fn a_mass_ratio_of_thirty_ends_at_the_bound() {
     assert_eq!(result.flags, []);
 }
 
-/// A push of 0.1 mm/s moves nothing by more than 2 mm while it is watched.
-#[test]
-fn a_push_below_the_noise_tells_no_masses() {
-    let mut spec = six_poses(SimulationSpec::random_balls(7));
-    let normal = Vector3::from(spec.collision.normal.take().unwrap());
-    spec.collision.restitution = None;
-    spec.collision.impulse = Some((1e-4 * normal).into());
-    spec.noise = NoiseSpec::Gaussian(Noise {
-        position: 0.002,
-        orientation: 0.01,
-    });
-    let result = solved(&simulated(&spec).0);
-    for estimate in [result.mass_ratio.as_ref().unwrap(), &result.restitution] {
-        assert_eq!(estimate.value, None);
-        assert!(estimate.reason.as_ref().unwrap().contains("hardly pushed"));
-    }
-    assert!(result.flags.contains(&Flag::MassRatioUnidentifiable));
-}
-
 /// Of balls, whose flight the model holds exactly, noise alone is left over: χ² is as large as its
 /// degrees of freedom, ± √(2 dof). A hundred scenes leave ± 1 % of it, and four of those are allowed.
 #[test]
