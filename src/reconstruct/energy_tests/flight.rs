@@ -1,8 +1,44 @@
-//! What annotations cost (SMASH eq. 18 and 19).
+//! What annotations cost (SMASH eq. 18 and 19), and the steps of eq. 10.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::{HALF_OBSERVED, ROUNDING, cuboids, seen_briefly, simulated, turn};
 use crate::bridge::ffi::{self, PaperPhase};
+use crate::reconstruct::gravity_frame::from_wxyz;
+use crate::rigid_body::omega_in_world;
 use crate::simulate::SimulationSpec;
+
+/// Equal steps of a quarter frame at most: 1.1 frames take five, and so it goes back in time. Both
+/// sides take the same steps, so that only rounding is left.
+#[test]
+fn rotation_goes_by_eulers_quarter_frames() {
+    let case = cuboids(0);
+    let (scene, unknowns) = (&case.scene, &case.unknowns);
+    for (frames, steps) in [(1.1, 5), (-1.0, 4)] {
+        for index in 0..2 {
+            let (body, unknown) = (&scene.bodies[index], &unknowns.bodies[index]);
+            let mass = [1.0, unknowns.mass_ratio][index];
+            let inertia = mass * Vector3::from(body.inertia_per_mass);
+            let flight = if frames < 0.0 {
+                unknown.before
+            } else {
+                unknown.after
+            };
+            let step_s = frames / scene.frames_per_second / f64::from(steps);
+            let mut q = from_wxyz(unknown.orientation);
+            for _ in 0..steps {
+                let omega = omega_in_world(&q, &inertia, &flight.angular_momentum.into());
+                let turning = Quaternion::from_imag(omega) * q.into_inner();
+                q = UnitQuaternion::new_normalize(q.into_inner() + turning * (step_s / 2.0));
+            }
+            let time = case.collision_frames + frames;
+            let poses =
+                ffi::predict_paper_poses(scene, case.collision_frames, unknowns, index, &[time]);
+            let found = from_wxyz(poses.unwrap()[0].orientation);
+            assert!(found.angle_to(&q) < 1e-12, "{}", found.angle_to(&q));
+        }
+    }
+}
 
 /// 1/2 w |f|² by hand: one annotation off by 3 cm, or turned by 0.2 rad, with nothing else wrong.
 #[test]
