@@ -58,17 +58,18 @@ impl Arguments {
     }
 
     /// What is worth trying after `result`.
-    fn next_steps(&self, result: &Reconstruction) -> Vec<String> {
-        let scene = self.scene.display();
+    fn next_steps(&self, scene: &Scene, result: &Reconstruction) -> Vec<String> {
+        let path = self.scene.display();
         let mut steps = Vec::new();
-        if result.segment_by == "cost" {
+        let has_partner = scene.bodies().len() == 2 || scene.plane().is_some();
+        if result.segment_by == "distance" {
             steps.push(format!(
-                "smash reconstruct {scene} --preset paper    the paper to the letter, to compare"
-            ));
-        } else {
-            steps.push(format!(
-                "smash reconstruct {scene} --preset paper --segment-by cost    \
+                "smash reconstruct {path} --preset paper --segment-by cost    \
                  finds the right segment more often"
+            ));
+        } else if has_partner {
+            steps.push(format!(
+                "smash reconstruct {path} --preset paper    the paper to the letter, to compare"
             ));
         }
         if !result.flags.is_empty() || !result.warnings.is_empty() {
@@ -98,7 +99,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => print_bytes(
-            summary::of(&result, &arguments.next_steps(&result), output.as_ref()).as_bytes(),
+            summary::of(
+                &result,
+                &arguments.next_steps(&scene, &result),
+                output.as_ref(),
+            )
+            .as_bytes(),
         ),
     }
 }

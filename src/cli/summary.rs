@@ -37,6 +37,9 @@ fn write_summary(
     if result.flags.is_empty() {
         writeln!(out, "No flags: the fit shows none of the known signs of failure.")?;
     }
+    if output.is_none() && next.is_empty() {
+        return Ok(());
+    }
     writeln!(out, "\nNext")?;
     if let Some(output) = output {
         writeln!(out, "  the numbers are in {}", output.path().display())?;

@@ -28,11 +28,13 @@ pub(super) fn fit(internal: &InternalScene, solved: &Solved, noise: Option<Noise
         squares.position_m2 / noise.position.powi(2)
             + squares.orientation_rad2 / noise.orientation.powi(2)
     });
-    let reason = match (noise, dof) {
-        (None, _) => Some("the scene states no noise".to_string()),
-        (_, ..=0) => Some("there are no more measured numbers than free parameters".to_string()),
+    let unmeasured = (squares.orientation_count == 0).then_some("no orientation was fitted");
+    let untested = match (noise, dof) {
+        (None, _) => Some("the scene states no noise"),
+        (_, ..=0) => Some("there are no more measured numbers than free parameters"),
         _ => None,
     };
+    let reasons: Vec<&str> = unmeasured.into_iter().chain(untested).collect();
     Ok(Fit {
         position_rmse: (squares.position_m2 / squares.position_count as f64).sqrt(),
         orientation_rmse: (squares.orientation_count > 0)
@@ -41,7 +43,7 @@ pub(super) fn fit(internal: &InternalScene, solved: &Solved, noise: Option<Noise
         dof,
         reduced_chi2: chi2.filter(|_| dof > 0).map(|chi2| chi2 / dof as f64),
         cost: solved.cost,
-        reason,
+        reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
     })
 }
 

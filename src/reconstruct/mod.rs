@@ -5,6 +5,8 @@
 //!          (gravity frame)   (phase 1 in each) (impulse)  (contact)  (world, SI, flags)
 //! ```
 
+#[cfg(test)]
+mod energy_tests;
 mod fit;
 mod flags;
 mod gravity_frame;

@@ -10,6 +10,8 @@ mod docs;
 mod free_rotation;
 mod import;
 mod installation;
+mod reconstruct;
+mod reconstruct_command;
 mod scene_rules;
 mod scene_warnings;
 mod scenes;
