@@ -9,12 +9,7 @@ use std::path::{Path, PathBuf};
 const INCLUDE_FOLDERS: [&str; 2] = ["/usr/include", "/usr/local/include"];
 
 fn main() {
-    for name in [
-        "SMASH_CERES_INCLUDE",
-        "SMASH_CERES_LIB",
-        "SMASH_CXX_FLAGS",
-        "DOCS_RS",
-    ] {
+    for name in ["SMASH_CERES_INCLUDE", "SMASH_CERES_LIB", "SMASH_CXX_FLAGS", "DOCS_RS"] {
         println!("cargo:rerun-if-env-changed={name}");
     }
     println!("cargo:rerun-if-changed=cpp");
@@ -59,18 +54,14 @@ fn ceres_include_folder() -> PathBuf {
         None => INCLUDE_FOLDERS.iter().map(PathBuf::from).collect(),
     };
     let holds_ceres = |folder: &PathBuf| folder.join("ceres/version.h").is_file();
-    candidates
-        .iter()
-        .find(|folder| holds_ceres(folder))
-        .cloned()
-        .unwrap_or_else(|| {
-            let looked: Vec<_> = candidates.iter().map(|f| f.display().to_string()).collect();
-            eprintln!(
-                "\nerror: the headers of Ceres Solver (2.1 or later) are not in {}.\n\
+    candidates.iter().find(|folder| holds_ceres(folder)).cloned().unwrap_or_else(|| {
+        let looked: Vec<_> = candidates.iter().map(|f| f.display().to_string()).collect();
+        eprintln!(
+            "\nerror: the headers of Ceres Solver (2.1 or later) are not in {}.\n\
              On Debian: sudo apt-get install g++ libceres-dev libeigen3-dev\n\
              (or run ./setup, or set SMASH_CERES_INCLUDE and SMASH_CERES_LIB)\n",
-                looked.join(" or ")
-            );
-            std::process::exit(1)
-        })
+            looked.join(" or ")
+        );
+        std::process::exit(1)
+    })
 }

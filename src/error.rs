@@ -36,13 +36,7 @@ pub struct Error {
 impl Error {
     /// An error of `kind` with the `problem` in words.
     pub fn new(kind: ErrorKind, problem: impl Into<String>) -> Self {
-        Error {
-            kind,
-            file: None,
-            place: None,
-            problem: problem.into(),
-            mend: None,
-        }
+        Error { kind, file: None, place: None, problem: problem.into(), mend: None }
     }
 
     /// A broken rule; the most frequent kind.
@@ -99,11 +93,7 @@ impl fmt::Display for Error {
         }
         if let Some(place) = &self.place {
             // People count from 1, JSON's readers from 0.
-            let base = if place.contains('[') {
-                " (counted from 0)"
-            } else {
-                ""
-            };
+            let base = if place.contains('[') { " (counted from 0)" } else { "" };
             write!(out, "{place}{base}: ")?;
         }
         write!(out, "{}", self.problem)?;

@@ -11,11 +11,7 @@ pub const LARGEST_INPUT_BYTES: u64 = 64 << 20;
 
 /// The name that a message uses for `path`; `-` is a standard stream.
 pub fn display_name(path: &Path, stream: &str) -> String {
-    if path == Path::new("-") {
-        format!("({stream})")
-    } else {
-        path.display().to_string()
-    }
+    if path == Path::new("-") { format!("({stream})") } else { path.display().to_string() }
 }
 
 /// Reads the text of `path`, or of standard input for `-`.
@@ -35,10 +31,7 @@ pub fn read_text(path: &Path) -> Result<String> {
         Box::new(File::open(path).map_err(unreadable)?)
     };
     let mut bytes = Vec::new();
-    source
-        .take(LARGEST_INPUT_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
+    source.take(LARGEST_INPUT_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST_INPUT_BYTES {
         let problem = format!("is larger than {} MiB", LARGEST_INPUT_BYTES >> 20);
         return Err(Error::new(ErrorKind::Read, problem)
@@ -77,9 +70,7 @@ impl Output {
     /// The path is a folder, or its folder doesn't exist or can't be written to.
     pub fn check(path: &Path) -> Result<Output> {
         let refuse = |problem: String, mend: &str| {
-            Error::new(ErrorKind::Write, problem)
-                .in_file(path.display().to_string())
-                .mend(mend)
+            Error::new(ErrorKind::Write, problem).in_file(path.display().to_string()).mend(mend)
         };
         let kind = if path == Path::new("-") {
             OutputKind::StandardOutput
@@ -98,10 +89,7 @@ impl Output {
                 _ => OutputKind::File,
             }
         };
-        let output = Output {
-            path: path.to_path_buf(),
-            kind,
-        };
+        let output = Output { path: path.to_path_buf(), kind };
         if let OutputKind::File = output.kind {
             // A temporary file, made and dropped, shows now what would else fail after the work.
             output.temporary()?;
@@ -125,9 +113,7 @@ impl Output {
                 let mut beside = self.temporary()?;
                 beside.write_all(bytes).map_err(fail)?;
                 beside.as_file().sync_all().map_err(fail)?;
-                beside
-                    .persist(&self.path)
-                    .map_err(|error| self.failure(&error.error))?;
+                beside.persist(&self.path).map_err(|error| self.failure(&error.error))?;
                 Ok(())
             }
         }
@@ -156,9 +142,7 @@ impl Output {
             // As an ordinary new file: the user's umask decides.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        builder
-            .tempfile_in(folder)
-            .map_err(|error| self.failure(&error))
+        builder.tempfile_in(folder).map_err(|error| self.failure(&error))
     }
 
     fn failure(&self, error: &io::Error) -> Error {
@@ -169,12 +153,9 @@ impl Output {
             }
             _ => "choose another place, or check its permissions",
         };
-        Error::new(
-            ErrorKind::Write,
-            format!("can't be written: {}", plain(error)),
-        )
-        .in_file(self.path.display().to_string())
-        .mend(mend)
+        Error::new(ErrorKind::Write, format!("can't be written: {}", plain(error)))
+            .in_file(self.path.display().to_string())
+            .mend(mend)
     }
 }
 
@@ -184,16 +165,11 @@ impl Output {
 /// The stream is closed or full.
 pub fn print_bytes(bytes: &[u8]) -> Result<()> {
     let mut out = io::stdout().lock();
-    out.write_all(bytes)
-        .and_then(|()| out.flush())
-        .map_err(|error| {
-            Error::new(
-                ErrorKind::Write,
-                format!("can't be written: {}", plain(&error)),
-            )
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
+        Error::new(ErrorKind::Write, format!("can't be written: {}", plain(&error)))
             .in_file("(standard output)")
             .mend("keep the reading end open, or write to a file with -o")
-        })
+    })
 }
 
 /// The system's words without its error number.
@@ -201,7 +177,5 @@ fn plain(error: &io::Error) -> String {
     let text = error.to_string();
     let cut = text.find(" (os error").unwrap_or(text.len());
     let mut chars = text[..cut].chars();
-    chars.next().map_or_else(String::new, |first| {
-        first.to_lowercase().chain(chars).collect()
-    })
+    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
 }

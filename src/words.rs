@@ -27,11 +27,7 @@ pub(crate) fn shortened(text: &str) -> String {
 /// The mend for a word that isn't among the `known` ones.
 pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> String {
     // Similarity costs the product of the lengths: a word of a megabyte is no misspelling.
-    let near = if word.len() > LONGEST_QUOTE {
-        None
-    } else {
-        nearest(word, known)
-    };
+    let near = if word.len() > LONGEST_QUOTE { None } else { nearest(word, known) };
     match near {
         Some(meant) => format!("did you mean `{meant}`?"),
         None if known.is_empty() => "leave it out".into(),
@@ -41,9 +37,7 @@ pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> String {
 
 fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let lower = word.to_lowercase();
-    let scored = known
-        .iter()
-        .map(|&one| (strsim::damerau_levenshtein(&lower, one), one));
+    let scored = known.iter().map(|&one| (strsim::damerau_levenshtein(&lower, one), one));
     let (distance, meant) = scored.min_by_key(|&(distance, _)| distance)?;
     // A third of the letters wrong is still a slip; more is another word.
     (distance * 3 <= meant.chars().count().max(lower.chars().count())).then_some(meant)
@@ -51,9 +45,5 @@ fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
 
 /// The words between backticks, with commas.
 pub(crate) fn listed(words: &[&str]) -> String {
-    words
-        .iter()
-        .map(|word| format!("`{word}`"))
-        .collect::<Vec<_>>()
-        .join(", ")
+    words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
 }

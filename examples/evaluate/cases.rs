@@ -21,11 +21,7 @@ pub struct Case {
 impl Case {
     /// What an annotator sees: every `interval`-th frame, a gap around the collision, noise.
     pub fn seen(&self, interval: u32, noise: &NoiseSpec, seed: u64) -> Result<Scene> {
-        let sampling = RegularSampling {
-            interval,
-            frame_count: self.frame_count,
-            gap: None,
-        };
+        let sampling = RegularSampling { interval, frame_count: self.frame_count, gap: None };
         let frames = sampling.frame_numbers(self.collision_frame);
         let sparse = keep_frames(self.scene.clone(), &frames);
         Scene::from_file(add_noise(sparse, noise, seed))
@@ -63,14 +59,13 @@ pub fn from_folder(folder: &Path, count: usize) -> Result<Vec<Case>> {
         }
         let truth_path = folder.join(format!("truth_{number:02}.json"));
         let truth: serde_json::Value = serde_json::from_str(&read_text(&truth_path)?)
-            .map_err(|error| wrong_truth(&truth_path, &error.to_string()))?;
+            .map_err(|error| wrong_file(&truth_path, &error.to_string()))?;
         let number_at = |field: &str| {
             let problem = format!("`{field}` isn't a number");
-            truth[field]
-                .as_f64()
-                .ok_or_else(|| wrong_truth(&truth_path, &problem))
+            truth[field].as_f64().ok_or_else(|| wrong_file(&truth_path, &problem))
         };
-        let scene = Scene::read(&scene_path)?.to_file();
+        let scene: SceneFile = serde_json::from_str(&read_text(&scene_path)?)
+            .map_err(|error| wrong_file(&scene_path, &error.to_string()))?;
         let fps = scene.fps.unwrap_or(60.0);
         cases.push(Case {
             frame_count: frame_count(&scene),
@@ -88,15 +83,12 @@ pub fn from_folder(folder: &Path, count: usize) -> Result<Vec<Case>> {
     Ok(cases)
 }
 
-fn wrong_truth(path: &Path, problem: &str) -> Error {
+fn wrong_file(path: &Path, problem: &str) -> Error {
     Error::new(ErrorKind::Parse, problem).in_file(path.display().to_string())
 }
 
 /// One more than the last observed frame.
 fn frame_count(scene: &SceneFile) -> u32 {
-    let observations = scene
-        .bodies
-        .iter()
-        .flat_map(|body| body.observations.iter().flatten());
+    let observations = scene.bodies.iter().flat_map(|body| body.observations.iter().flatten());
     observations.filter_map(|o| o.frame).fold(0.0, f64::max) as u32 + 1
 }

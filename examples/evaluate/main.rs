@@ -60,12 +60,7 @@ fn main() -> smash::Result<()> {
         for &interval in &arguments.intervals {
             for (method, options) in methods() {
                 let outcomes = outcomes(&cases, interval, &noise, &options);
-                let score = Score {
-                    noise_name,
-                    interval,
-                    method,
-                    outcomes,
-                };
+                let score = Score { noise_name, interval, method, outcomes };
                 println!("{}", score.row());
                 scores.push(score);
             }
@@ -79,10 +74,7 @@ fn main() -> smash::Result<()> {
 
 /// None, a careful annotator's, and the paper's 5 and 10 percent.
 fn noises() -> [(&'static str, NoiseSpec); 4] {
-    let annotator = Noise {
-        position: 0.002,
-        orientation: 0.01,
-    };
+    let annotator = Noise { position: 0.002, orientation: 0.01 };
     [
         ("none", NoiseSpec::None),
         ("gauss", NoiseSpec::Gaussian(annotator)),
@@ -92,18 +84,11 @@ fn noises() -> [(&'static str, NoiseSpec); 4] {
 }
 
 fn methods() -> [(&'static str, Options); 2] {
-    [
-        ("paper", Options::paper()),
-        ("paper, by cost", Options::default()),
-    ]
+    [("paper", Options::paper()), ("paper, by cost", Options::default())]
 }
 
 fn outcomes(cases: &[Case], interval: u32, noise: &NoiseSpec, options: &Options) -> Vec<Outcome> {
-    let count = if interval == 1 {
-        cases.len().div_ceil(SHARE_OF_DENSEST)
-    } else {
-        cases.len()
-    };
+    let count = if interval == 1 { cases.len().div_ceil(SHARE_OF_DENSEST) } else { cases.len() };
     let cases: Vec<(usize, &Case)> = cases[..count].iter().enumerate().collect();
     cases
         .into_par_iter()

@@ -75,11 +75,7 @@ impl Score {
             let hits = self.outcomes.iter().filter(|outcome| is(outcome)).count();
             format!("{:.0} %", 100.0 * hits as f64 / count as f64)
         };
-        for failure in self
-            .outcomes
-            .iter()
-            .filter_map(|outcome| outcome.failure.as_ref())
-        {
+        for failure in self.outcomes.iter().filter_map(|outcome| outcome.failure.as_ref()) {
             eprintln!("failed: {failure}");
         }
         format!(
@@ -101,15 +97,8 @@ impl Score {
         let mut errors: Vec<f64> = self.outcomes.iter().map(error).collect();
         errors.sort_by(f64::total_cmp);
         let place = share * (errors.len() - 1) as f64;
-        let (low, high) = (
-            errors[place.floor() as usize],
-            errors[place.ceil() as usize],
-        );
-        if low == high {
-            low
-        } else {
-            low + (high - low) * place.fract()
-        }
+        let (low, high) = (errors[place.floor() as usize], errors[place.ceil() as usize]);
+        if low == high { low } else { low + (high - low) * place.fract() }
     }
 }
 

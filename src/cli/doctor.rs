@@ -75,15 +75,10 @@ fn try_solver() -> smash::Result<()> {
 
 impl Health {
     fn examine(solver_works: bool) -> Health {
-        let lines = DEPENDENCIES
-            .lines()
-            .filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let lines = DEPENDENCIES.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
         let dependencies: Vec<Dependency> = lines.map(Dependency::look_for).collect();
-        let missing: Vec<_> = dependencies
-            .iter()
-            .filter(|d| d.place.is_none())
-            .map(|d| d.package)
-            .collect();
+        let missing: Vec<_> =
+            dependencies.iter().filter(|d| d.place.is_none()).map(|d| d.package).collect();
         let install =
             (!missing.is_empty()).then(|| format!("sudo apt-get install {}", missing.join(" ")));
         Health {
@@ -96,22 +91,14 @@ impl Health {
     }
 
     fn in_words(&self) -> String {
-        let mut lines = vec![format!(
-            "smash {}, built with Ceres {}",
-            self.version, self.ceres
-        )];
+        let mut lines = vec![format!("smash {}, built with Ceres {}", self.version, self.ceres)];
         lines.push(match self.solver_works {
             true => "The solver works.".into(),
             false => "The solver doesn't work.".into(),
         });
         for (work, title) in [("build", "To build it:"), ("style", "To check its style:")] {
             lines.push(format!("\n{title}"));
-            lines.extend(
-                self.dependencies
-                    .iter()
-                    .filter(|d| d.work == work)
-                    .map(|d| d.in_words()),
-            );
+            lines.extend(self.dependencies.iter().filter(|d| d.work == work).map(|d| d.in_words()));
         }
         lines.push(match &self.install {
             Some(command) => format!("\nTo get what is missing (Debian): {command}"),
@@ -134,22 +121,9 @@ impl Dependency {
             "header" => include_folders(),
             _ => vec!["/".into()],
         };
-        let place = folders
-            .iter()
-            .map(|folder| folder.join(name))
-            .find(|path| path.exists());
-        let version = if kind == "command" {
-            place.as_deref().and_then(version_of)
-        } else {
-            None
-        };
-        Dependency {
-            package,
-            work,
-            purpose,
-            place,
-            version,
-        }
+        let place = folders.iter().map(|folder| folder.join(name)).find(|path| path.exists());
+        let version = if kind == "command" { place.as_deref().and_then(version_of) } else { None };
+        Dependency { package, work, purpose, place, version }
     }
 
     fn in_words(&self) -> String {
@@ -157,28 +131,19 @@ impl Dependency {
             (None, _) => format!("  missing  {}: {}", self.package, self.purpose),
             (Some(place), None) => format!("  found    {}: {}", self.package, place.display()),
             (Some(place), Some(version)) => {
-                format!(
-                    "  found    {}: {} ({version})",
-                    self.package,
-                    place.display()
-                )
+                format!("  found    {}: {} ({version})", self.package, place.display())
             }
         }
     }
 }
 
 fn folders_of_path() -> Vec<PathBuf> {
-    std::env::var_os("PATH")
-        .map(|path| std::env::split_paths(&path).collect())
-        .unwrap_or_default()
+    std::env::var_os("PATH").map(|path| std::env::split_paths(&path).collect()).unwrap_or_default()
 }
 
 fn include_folders() -> Vec<PathBuf> {
     let named = std::env::var_os("SMASH_CERES_INCLUDE").map(PathBuf::from);
-    named
-        .into_iter()
-        .chain(INCLUDE_FOLDERS.map(PathBuf::from))
-        .collect()
+    named.into_iter().chain(INCLUDE_FOLDERS.map(PathBuf::from)).collect()
 }
 
 /// The first line of what the program says to `--version`.

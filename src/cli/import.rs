@@ -43,12 +43,7 @@ pub struct Arguments {
     #[arg(long = "sphere", value_name = "NAME=RADIUS", value_parser = parse_sphere)]
     spheres: Vec<(String, Shape)>,
     /// The body collides with a level floor at this height along up
-    #[arg(
-        long,
-        value_name = "HEIGHT",
-        allow_hyphen_values = true,
-        conflicts_with = "plane"
-    )]
+    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true, conflicts_with = "plane")]
     floor: Option<f64>,
     /// The body collides with the plane normal·p = height
     #[arg(long, value_name = "NX,NY,NZ,H", allow_hyphen_values = true, value_parser = parse_numbers::<4>)]
@@ -68,10 +63,7 @@ pub fn run(arguments: &Arguments) -> smash::Result<()> {
     for path in &arguments.files {
         texts.push((display_name(path, "standard input"), read_text(path)?));
     }
-    let tables: Vec<Table> = texts
-        .iter()
-        .map(|(file, text)| Table { file, text })
-        .collect();
+    let tables: Vec<Table> = texts.iter().map(|(file, text)| Table { file, text }).collect();
     let file = import_csv(&tables, &arguments.options())?;
     let scene = Scene::from_file(file.clone())
         .map_err(|error| error.in_file(format!("the scene of {}", texts[0].0)))?;
@@ -113,17 +105,11 @@ fn summary(scene: &Scene, path: &Path, as_json: bool) -> String {
         return format!("{summary}\n");
     }
     let bodies = bodies.map(|body| format!("{} ({} poses)", body.name, body.observations.len()));
-    format!(
-        "{}: {}\n",
-        path.display(),
-        bodies.collect::<Vec<_>>().join(", ")
-    )
+    format!("{}: {}\n", path.display(), bodies.collect::<Vec<_>>().join(", "))
 }
 
 fn parse_direction(text: &str) -> Result<[f64; 3], String> {
-    let (axis, sign) = text
-        .strip_prefix('-')
-        .map_or((text, 1.0), |axis| (axis, -1.0));
+    let (axis, sign) = text.strip_prefix('-').map_or((text, 1.0), |axis| (axis, -1.0));
     match axis {
         "x" => Ok([sign, 0.0, 0.0]),
         "y" => Ok([0.0, sign, 0.0]),
@@ -134,12 +120,7 @@ fn parse_direction(text: &str) -> Result<[f64; 3], String> {
 
 fn parse_box(text: &str) -> Result<(String, Shape), String> {
     let (name, size) = named(text)?;
-    Ok((
-        name,
-        Shape::Box {
-            size: parse_numbers(size)?,
-        },
-    ))
+    Ok((name, Shape::Box { size: parse_numbers(size)? }))
 }
 
 fn parse_sphere(text: &str) -> Result<(String, Shape), String> {
@@ -154,13 +135,9 @@ fn named(text: &str) -> Result<(String, &str), String> {
 }
 
 fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let numbers: Result<Vec<f64>, _> = text
-        .split(',')
-        .map(|one| f64::from_str(one.trim()))
-        .collect();
+    let numbers: Result<Vec<f64>, _> =
+        text.split(',').map(|one| f64::from_str(one.trim())).collect();
     let numbers = numbers.map_err(|_| "write numbers with commas between them".to_owned())?;
     let count = numbers.len();
-    numbers
-        .try_into()
-        .map_err(|_| format!("{count} numbers, but {N} are needed"))
+    numbers.try_into().map_err(|_| format!("{count} numbers, but {N} are needed"))
 }

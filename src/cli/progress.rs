@@ -24,18 +24,15 @@ impl ProgressLine {
                 self.0.set_length(of as u64 + 2);
                 self.0.inc(1);
                 let done = self.0.position().min(of as u64);
-                self.0
-                    .set_message(format!("phase 1, segment {done} of {of}, cost {cost:.3e}"));
+                self.0.set_message(format!("phase 1, segment {done} of {of}, cost {cost:.3e}"));
             }
             Stage::Impulse => {
                 self.0.inc(1);
-                self.0
-                    .set_message(format!("phase 2, the impulse, cost {cost:.3e}"));
+                self.0.set_message(format!("phase 2, the impulse, cost {cost:.3e}"));
             }
             Stage::ContactPoint => {
                 self.0.inc(1);
-                self.0
-                    .set_message(format!("phase 3, the contact point, cost {cost:.3e}"));
+                self.0.set_message(format!("phase 3, the contact point, cost {cost:.3e}"));
             }
         }
     }

@@ -51,22 +51,14 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         // It carries the data already.
         return Ok(());
     }
-    let told = if arguments.json {
-        truth
-    } else {
-        in_words(arguments, &spec, &simulation)
-    };
+    let told = if arguments.json { truth } else { in_words(arguments, &spec, &simulation) };
     print_bytes(told.as_bytes())
 }
 
 /// What was made, for a person.
 fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulation) -> String {
     let truth = &simulation.truth;
-    let name = if truth.scene.is_empty() {
-        "the collision"
-    } else {
-        &truth.scene
-    };
+    let name = if truth.scene.is_empty() { "the collision" } else { &truth.scene };
     let mass_ratio = match truth.mass_ratio {
         Some(ratio) => format!("{ratio:.4}"),
         None => "none: against a static body".to_string(),
@@ -84,11 +76,7 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
             sigma.position, sigma.orientation, spec.seed
         ),
         NoiseSpec::Uniform(fraction) => {
-            format!(
-                "uniform, {} % of each number, seed {}",
-                100.0 * fraction,
-                spec.seed
-            )
+            format!("uniform, {} % of each number, seed {}", 100.0 * fraction, spec.seed)
         }
     };
     let scene = arguments.output.display();

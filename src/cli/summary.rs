@@ -19,45 +19,23 @@ fn write_summary(
     next: &[String],
     output: Option<&Output>,
 ) -> std::fmt::Result {
-    let name = if result.scene.is_empty() {
-        "the collision"
-    } else {
-        &result.scene
-    };
-    writeln!(
-        out,
-        "{name} (preset {}, segment by {})\n",
-        result.preset, result.segment_by
-    )?;
+    let name = if result.scene.is_empty() { "the collision" } else { &result.scene };
+    writeln!(out, "{name} (preset {}, segment by {})\n", result.preset, result.segment_by)?;
     match &result.mass_ratio {
         Some(estimate) => writeln!(out, "  mass ratio m_b/m_a   {}", number(estimate, ""))?,
         None => writeln!(out, "  mass ratio m_b/m_a   none: a single body")?,
     }
-    writeln!(
-        out,
-        "  restitution          {}",
-        number(&result.restitution, "")
-    )?;
-    writeln!(
-        out,
-        "  collision time       {}",
-        number(&result.collision_time, " s")
-    )?;
+    writeln!(out, "  restitution          {}", number(&result.restitution, ""))?;
+    writeln!(out, "  collision time       {}", number(&result.collision_time, " s"))?;
     let [x, y, z] = result.impulse;
-    writeln!(
-        out,
-        "  impulse on a         ({x:.3}, {y:.3}, {z:.3}) N·s per kg of a\n"
-    )?;
+    writeln!(out, "  impulse on a         ({x:.3}, {y:.3}, {z:.3}) N·s per kg of a\n")?;
     writeln!(out, "{}", table(&result.bodies))?;
     writeln!(out, "  error of the fit     {}\n", fit_error(result))?;
     for flag in &result.flags {
         write_flag(out, *flag)?;
     }
     if result.flags.is_empty() {
-        writeln!(
-            out,
-            "No flags: the fit shows none of the known signs of failure."
-        )?;
+        writeln!(out, "No flags: the fit shows none of the known signs of failure.")?;
     }
     writeln!(out, "\nNext")?;
     if let Some(output) = output {
@@ -73,24 +51,14 @@ fn number(estimate: &Estimate, unit: &str) -> String {
     match (estimate.value, estimate.std) {
         (Some(value), Some(std)) => format!("{value:.4}{unit} ± {std:.1e}{unit}"),
         (Some(value), None) => format!("{value:.4}{unit}"),
-        (None, _) => format!(
-            "not determined: {}",
-            estimate.reason.as_deref().unwrap_or("")
-        ),
+        (None, _) => format!("not determined: {}", estimate.reason.as_deref().unwrap_or("")),
     }
 }
 
 /// Velocities and spins before and after, one row each.
 fn table(bodies: &[BodyResult]) -> String {
-    let width = bodies
-        .iter()
-        .map(|body| body.name.chars().count())
-        .max()
-        .unwrap_or(0);
-    let mut text = format!(
-        "  {:width$}  {:<30}{:<30}\n",
-        "", "velocity (m/s)", "spin (rad/s)",
-    );
+    let width = bodies.iter().map(|body| body.name.chars().count()).max().unwrap_or(0);
+    let mut text = format!("  {:width$}  {:<30}{:<30}\n", "", "velocity (m/s)", "spin (rad/s)",);
     for body in bodies {
         let rows = [
             ("before", body.velocity_before, body.angular_velocity_before),
@@ -98,16 +66,8 @@ fn table(bodies: &[BodyResult]) -> String {
         ];
         for (side, velocity, spin) in rows {
             let spin = spin.map_or("not measured".to_string(), vector);
-            let name = if side == "before" {
-                body.name.as_str()
-            } else {
-                ""
-            };
-            let _ = writeln!(
-                text,
-                "  {name:width$}  {side:<7}{:<28}{spin}",
-                vector(velocity)
-            );
+            let name = if side == "before" { body.name.as_str() } else { "" };
+            let _ = writeln!(text, "  {name:width$}  {side:<7}{:<28}{spin}", vector(velocity));
         }
     }
     text

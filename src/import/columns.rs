@@ -36,22 +36,13 @@ impl Columns {
         let find = |name: &str| header.iter().position(|column| column == name);
         let (time, is_frame) = match (find("frame"), find("time"), options.fps) {
             (Some(_), Some(_), _) => {
-                return Err(wrong(
-                    "has both `frame` and `time`",
-                    "keep one of the two columns",
-                ));
+                return Err(wrong("has both `frame` and `time`", "keep one of the two columns"));
             }
             (None, None, _) => {
-                return Err(wrong(
-                    "has neither `frame` nor `time`",
-                    "name the column of times",
-                ));
+                return Err(wrong("has neither `frame` nor `time`", "name the column of times"));
             }
             (Some(_), None, None) => {
-                return Err(wrong(
-                    "numbers frames",
-                    "state the frames per second: `--fps 60`",
-                ));
+                return Err(wrong("numbers frames", "state the frames per second: `--fps 60`"));
             }
             (Some(frame), None, Some(_)) => (frame, true),
             (None, Some(time), _) => (time, false),
@@ -66,34 +57,20 @@ impl Columns {
             }
         }
         if prefixes.is_empty() {
-            return Err(wrong(
-                "has no positions",
-                "name their columns x, y, z (or a_x, a_y, a_z)",
-            ));
+            return Err(wrong("has no positions", "name their columns x, y, z (or a_x, a_y, a_z)"));
         }
         if prefixes.contains(&None) && prefixes.len() > 1 || body.is_some() && prefixes != [None] {
             let mend = "use a column `body`, or a prefix in all columns of poses, such as a_x";
             return Err(wrong("names bodies in two ways", mend));
         }
-        let groups = prefixes
-            .into_iter()
-            .map(|prefix| Group::of(prefix, header, options));
-        Ok(Columns {
-            time,
-            is_frame,
-            body,
-            groups: groups.collect::<Result<_>>()?,
-        })
+        let groups = prefixes.into_iter().map(|prefix| Group::of(prefix, header, options));
+        Ok(Columns { time, is_frame, body, groups: groups.collect::<Result<_>>()? })
     }
 }
 
 impl Group {
     fn of(prefix: Option<&str>, header: &[String], options: &ImportOptions) -> Result<Group> {
-        let find = |name: &&str| {
-            header
-                .iter()
-                .position(|c| coordinate(c) == Some((prefix, name)))
-        };
+        let find = |name: &&str| header.iter().position(|c| coordinate(c) == Some((prefix, name)));
         let position = all(POSITION, find)
             .ok_or_else(|| wrong("lacks coordinates of the position", "name them x, y, z"))?;
         let has_any = |names: [&str; 4]| names.iter().any(|name| find(name).is_some());
@@ -116,11 +93,7 @@ impl Group {
                 })
             }
         };
-        Ok(Group {
-            body: prefix.map(str::to_owned),
-            position,
-            quaternion,
-        })
+        Ok(Group { body: prefix.map(str::to_owned), position, quaternion })
     }
 }
 
@@ -130,10 +103,7 @@ fn check_names(header: &[String]) -> Result<()> {
         && only.contains([';', '\t'])
     {
         let mend = "save it with commas between the columns and points in the numbers";
-        return Err(wrong(
-            "has a single column: it isn't separated by commas",
-            mend,
-        ));
+        return Err(wrong("has a single column: it isn't separated by commas", mend));
     }
     for (index, column) in header.iter().enumerate() {
         if header[..index].contains(column) {
@@ -155,14 +125,8 @@ fn coordinate(column: &str) -> Option<(Option<&str>, &str)> {
         Some((prefix, name)) if !prefix.is_empty() => (Some(prefix), name),
         _ => (None, column),
     };
-    let names = POSITION
-        .iter()
-        .chain(&QUATERNION)
-        .chain(&UNNAMED_QUATERNION);
-    names
-        .into_iter()
-        .any(|one| *one == name)
-        .then_some((prefix, name))
+    let names = POSITION.iter().chain(&QUATERNION).chain(&UNNAMED_QUATERNION);
+    names.into_iter().any(|one| *one == name).then_some((prefix, name))
 }
 
 fn all<const N: usize>(
@@ -170,18 +134,12 @@ fn all<const N: usize>(
     find: impl Fn(&&str) -> Option<usize>,
 ) -> Option<[usize; N]> {
     let found = names.map(|name| find(&name));
-    found
-        .iter()
-        .all(Option::is_some)
-        .then(|| found.map(Option::unwrap_or_default))
+    found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
 }
 
 fn incomplete() -> Error {
     let names = listed(&QUATERNION);
-    wrong(
-        "has an incomplete quaternion",
-        format!("give all four, {names}, or none"),
-    )
+    wrong("has an incomplete quaternion", format!("give all four, {names}, or none"))
 }
 
 fn wrong(problem: impl Into<String>, mend: impl Into<String>) -> Error {

@@ -22,24 +22,14 @@ fn poses(
     options: &ImportOptions,
 ) -> Result<Vec<(String, ObservationFile)>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    let header: Vec<String> = reader
-        .headers()
-        .map_err(malformed)?
-        .iter()
-        .map(lower)
-        .collect();
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+    let header: Vec<String> = reader.headers().map_err(malformed)?.iter().map(lower).collect();
     let columns = Columns::of(&header, options)?;
     let mut poses = Vec::new();
     for record in reader.records() {
         let record = record.map_err(malformed)?;
-        let row = Row {
-            line: record.position().map_or(0, |at| at.line()),
-            record,
-            header: &header,
-        };
+        let row =
+            Row { line: record.position().map_or(0, |at| at.line()), record, header: &header };
         for group in &columns.groups {
             let Some(pose) = row.pose(&columns, group)? else {
                 continue;
@@ -82,17 +72,8 @@ impl Row<'_> {
         let Some([time]) = self.numbers([columns.time])? else {
             return Err(self.wrong(columns.time, "is empty", "each pose needs its time"));
         };
-        let (frame, time) = if columns.is_frame {
-            (Some(time), None)
-        } else {
-            (None, Some(time))
-        };
-        Ok(Some(ObservationFile {
-            frame,
-            time,
-            position,
-            orientation,
-        }))
+        let (frame, time) = if columns.is_frame { (Some(time), None) } else { (None, Some(time)) };
+        Ok(Some(ObservationFile { frame, time, position, orientation }))
     }
 
     /// The numbers of some cells; `None` if all of them are empty.
@@ -120,31 +101,18 @@ impl Row<'_> {
     }
 
     fn wrong(&self, column: usize, problem: impl Into<String>, mend: &str) -> Error {
-        let place = format!(
-            "line {}, column {}",
-            self.line,
-            quoted(&self.header[column])
-        );
+        let place = format!("line {}, column {}", self.line, quoted(&self.header[column]));
         Error::invalid(place, problem).mend(mend)
     }
 }
 
 fn malformed(error: csv::Error) -> Error {
     let (place, problem) = match error.kind() {
-        csv::ErrorKind::UnequalLengths {
-            pos,
-            expected_len,
-            len,
-        } => {
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
             let line = pos.as_ref().map_or(0, csv::Position::line);
-            (
-                format!("line {line}"),
-                format!("has {len} cells, but the header has {expected_len}"),
-            )
+            (format!("line {line}"), format!("has {len} cells, but the header has {expected_len}"))
         }
         _ => ("table".into(), error.to_string()),
     };
-    Error::new(ErrorKind::Parse, problem)
-        .at(place)
-        .mend("look for missing or additional commas")
+    Error::new(ErrorKind::Parse, problem).at(place).mend("look for missing or additional commas")
 }

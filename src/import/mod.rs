@@ -107,10 +107,7 @@ pub fn import_csv(tables: &[Table<'_>], options: &ImportOptions) -> Result<Scene
                 bodies.push(dynamic_body(name));
                 bodies.len() - 1
             });
-            bodies[index]
-                .observations
-                .get_or_insert_default()
-                .push(pose);
+            bodies[index].observations.get_or_insert_default().push(pose);
         }
     }
     give_shapes(&mut bodies, options)?;
@@ -136,14 +133,7 @@ pub fn import_csv(tables: &[Table<'_>], options: &ImportOptions) -> Result<Scene
 }
 
 fn dynamic_body(name: String) -> BodyFile {
-    BodyFile {
-        name,
-        shape: None,
-        observations: None,
-        is_static: None,
-        normal: None,
-        height: None,
-    }
+    BodyFile { name, shape: None, observations: None, is_static: None, normal: None, height: None }
 }
 
 /// The body of a table that names none: the only shape, if there is one; else the file's name.
@@ -168,12 +158,8 @@ fn give_shapes(bodies: &mut [BodyFile], options: &ImportOptions) -> Result<()> {
             return Err(Error::invalid("shapes", problem).mend(did_you_mean(name, &known)));
         };
         let scaled = match *shape {
-            Shape::Box { size } => Shape::Box {
-                size: size.map(|edge| edge * unit),
-            },
-            Shape::Sphere { radius } => Shape::Sphere {
-                radius: radius * unit,
-            },
+            Shape::Box { size } => Shape::Box { size: size.map(|edge| edge * unit) },
+            Shape::Sphere { radius } => Shape::Sphere { radius: radius * unit },
         };
         if body.shape.replace(scaled).is_some() {
             let problem = format!("the body {} has two shapes", quoted(name));

@@ -28,9 +28,7 @@ pub(crate) fn decode<T: DeserializeOwned>(text: &str, file: &str, schema: &str) 
             error.into_inner().into_error(place)
         })
     };
-    parse(text)
-        .and_then(|tree| decode_tree(&tree))
-        .map_err(|error| error.in_file(file))
+    parse(text).and_then(|tree| decode_tree(&tree)).map_err(|error| error.in_file(file))
 }
 
 /// Checks the field `schema`, which says what kind of file this is.
@@ -38,11 +36,8 @@ pub(crate) fn check_schema(found: &str, expected: &str) -> Result<()> {
     if found == expected {
         return Ok(());
     }
-    Err(
-        Error::invalid("schema", format!("is {}", quoted(found))).mend(format!(
-            "this command reads files whose `schema` is `{expected}`"
-        )),
-    )
+    Err(Error::invalid("schema", format!("is {}", quoted(found)))
+        .mend(format!("this command reads files whose `schema` is `{expected}`")))
 }
 
 /// The place as in `bodies[1].observations[3].position`, as [`crate::Error`] names it everywhere.
@@ -132,10 +127,7 @@ impl<'de> Deserializer<'de> for &'de Tree {
     ) -> std::result::Result<V::Value, Fault> {
         match self {
             Tree::Object(_) => self.deserialize_any(visitor),
-            _ => Err(Fault::Wrong {
-                found: self.shown(),
-                expected: "an object".into(),
-            }),
+            _ => Err(Fault::Wrong { found: self.shown(), expected: "an object".into() }),
         }
     }
 
@@ -154,10 +146,7 @@ impl<'de> Deserializer<'de> for &'de Tree {
             }
             _ => {
                 let expected = crate::words::listed(known);
-                Err(Fault::Wrong {
-                    found: self.shown(),
-                    expected: format!("one of {expected}"),
-                })
+                Err(Fault::Wrong { found: self.shown(), expected: format!("one of {expected}") })
             }
         }
     }
@@ -176,10 +165,7 @@ impl<'de> Deserializer<'de> for &'de Tree {
     ) -> std::result::Result<V::Value, Fault> {
         match self {
             Tree::Text(text) => visitor.visit_borrowed_str(text),
-            _ => Err(Fault::invalid_type(
-                Unexpected::Other(&self.shown()),
-                &visitor,
-            )),
+            _ => Err(Fault::invalid_type(Unexpected::Other(&self.shown()), &visitor)),
         }
     }
 

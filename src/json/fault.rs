@@ -10,19 +10,10 @@ use crate::{Error, ErrorKind};
 /// A broken expectation, in parts that a message can be made of.
 #[derive(Debug)]
 pub(super) enum Fault {
-    UnknownField {
-        name: String,
-        known: &'static [&'static str],
-    },
-    UnknownWord {
-        word: String,
-        known: &'static [&'static str],
-    },
+    UnknownField { name: String, known: &'static [&'static str] },
+    UnknownWord { word: String, known: &'static [&'static str] },
     MissingField(&'static str),
-    Wrong {
-        found: String,
-        expected: String,
-    },
+    Wrong { found: String, expected: String },
     Custom(String),
 }
 
@@ -38,10 +29,9 @@ impl Fault {
                 format!("is \"{}\", which is unknown", shortened(&word)),
                 did_you_mean(&word, known),
             ),
-            Fault::MissingField(name) => (
-                format!("the field `{name}` is missing"),
-                format!("add `{name}`"),
-            ),
+            Fault::MissingField(name) => {
+                (format!("the field `{name}` is missing"), format!("add `{name}`"))
+            }
             Fault::Wrong { found, expected } => {
                 (format!("is {found}"), format!("write {expected} here"))
             }
@@ -51,16 +41,8 @@ impl Fault {
             }
         };
         let error = Error::new(ErrorKind::Invalid, problem);
-        let error = if place.is_empty() {
-            error
-        } else {
-            error.at(place)
-        };
-        if mend.is_empty() {
-            error
-        } else {
-            error.mend(mend)
-        }
+        let error = if place.is_empty() { error } else { error.at(place) };
+        if mend.is_empty() { error } else { error.mend(mend) }
     }
 }
 
@@ -102,38 +84,23 @@ impl de::Error for Fault {
     }
 
     fn invalid_type(value: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Fault::Wrong {
-            found: found(value),
-            expected: in_words(expected),
-        }
+        Fault::Wrong { found: found(value), expected: in_words(expected) }
     }
 
     fn invalid_value(value: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Fault::Wrong {
-            found: found(value),
-            expected: in_words(expected),
-        }
+        Fault::Wrong { found: found(value), expected: in_words(expected) }
     }
 
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
-        Fault::Wrong {
-            found: format!("a list of {length}"),
-            expected: in_words(expected),
-        }
+        Fault::Wrong { found: format!("a list of {length}"), expected: in_words(expected) }
     }
 
     fn unknown_variant(word: &str, known: &'static [&'static str]) -> Self {
-        Fault::UnknownWord {
-            word: word.into(),
-            known,
-        }
+        Fault::UnknownWord { word: word.into(), known }
     }
 
     fn unknown_field(name: &str, known: &'static [&'static str]) -> Self {
-        Fault::UnknownField {
-            name: name.into(),
-            known,
-        }
+        Fault::UnknownField { name: name.into(), known }
     }
 
     fn missing_field(name: &'static str) -> Self {

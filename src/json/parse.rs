@@ -34,8 +34,7 @@ pub(super) fn parse(text: &str) -> Result<Tree> {
     let values = Cell::new(0);
     let mut source = serde_json::Deserializer::from_str(text);
     let tree = Values { count: &values }.deserialize(&mut source);
-    tree.and_then(|tree| source.end().map(|()| tree))
-        .map_err(|error| explained(&error, text))
+    tree.and_then(|tree| source.end().map(|()| tree)).map_err(|error| explained(&error, text))
 }
 
 /// Builds the tree, and counts its values.
@@ -80,9 +79,7 @@ impl<'de> Visitor<'de> for Values<'_> {
     }
 
     fn visit_f64<E: serde::de::Error>(self, value: f64) -> std::result::Result<Tree, E> {
-        Number::from_f64(value)
-            .map(Tree::Number)
-            .ok_or_else(|| E::custom("number out of range"))
+        Number::from_f64(value).map(Tree::Number).ok_or_else(|| E::custom("number out of range"))
     }
 
     fn visit_str<E>(self, value: &str) -> std::result::Result<Tree, E> {
@@ -117,16 +114,11 @@ fn explained(error: &serde_json::Error, text: &str) -> Error {
     let said = said.split(" at line ").next().unwrap_or(&said);
     let word = word_at(text, error.line(), error.column());
     let not_finite = ["nan", "inf", "-inf", "-nan"];
-    let bare_number = not_finite
-        .iter()
-        .any(|one| word.to_lowercase().starts_with(one));
+    let bare_number = not_finite.iter().any(|one| word.to_lowercase().starts_with(one));
     let (problem, mend) = if text.trim().is_empty() {
         ("is empty".into(), "was it saved? it should hold JSON")
     } else if error.is_eof() {
-        (
-            "the text ends too early".into(),
-            "the file seems to be cut short: save or copy it again",
-        )
+        ("the text ends too early".into(), "the file seems to be cut short: save or copy it again")
     } else if bare_number {
         (
             format!("{} is no JSON number", quoted(word)),
@@ -135,20 +127,11 @@ fn explained(error: &serde_json::Error, text: &str) -> Error {
     } else if said.starts_with("the key") {
         (format!("{said} in the same object"), "keep one of the two")
     } else if said.starts_with("more than") {
-        (
-            format!("the file holds {said}"),
-            "keep the poses around the collision",
-        )
+        (format!("the file holds {said}"), "keep the poses around the collision")
     } else if said.starts_with("recursion limit") {
-        (
-            "is nested deeper than 127 levels".into(),
-            "the files of smash need fewer than 10",
-        )
+        ("is nested deeper than 127 levels".into(), "the files of smash need fewer than 10")
     } else if said.starts_with("number out of range") {
-        (
-            "the number is too large".into(),
-            "write a finite number in SI units",
-        )
+        ("the number is too large".into(), "write a finite number in SI units")
     } else if said.starts_with("trailing characters") {
         (
             format!("{} follows the end of the JSON", quoted(word)),
@@ -171,16 +154,12 @@ fn word_at(text: &str, line: usize, column: usize) -> &str {
         at -= 1;
     }
     let between = |c: char| c.is_whitespace() || ",:[]{}\"".contains(c);
-    let start = line[..at].rfind(between).map_or(0, |found| {
-        found + line[found..].chars().next().map_or(1, char::len_utf8)
-    });
+    let start = line[..at]
+        .rfind(between)
+        .map_or(0, |found| found + line[found..].chars().next().map_or(1, char::len_utf8));
     let length = line[at..].find(between).unwrap_or(line.len() - at);
     let word = &line[start..at + length];
-    if word.is_empty() {
-        first_char(&line[at..])
-    } else {
-        word
-    }
+    if word.is_empty() { first_char(&line[at..]) } else { word }
 }
 
 fn first_char(text: &str) -> &str {
@@ -193,10 +172,7 @@ impl Tree {
         let Tree::Object(fields) = self else {
             return None;
         };
-        fields
-            .iter()
-            .find(|(key, _)| key == name)
-            .map(|(_, value)| value)
+        fields.iter().find(|(key, _)| key == name).map(|(_, value)| value)
     }
 
     /// The value as a message shows it: whole if short, else its kind.

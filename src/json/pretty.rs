@@ -20,13 +20,7 @@ fn write(value: &Value, indent: usize, text: &mut String) {
     let broken = height(value) > 2 || value.to_string().len() > LONGEST_LINE;
     match value {
         Value::Array(items) => {
-            write_items(
-                items.iter().map(|item| (None, item)),
-                ['[', ']'],
-                broken,
-                indent,
-                text,
-            );
+            write_items(items.iter().map(|item| (None, item)), ['[', ']'], broken, indent, text);
         }
         Value::Object(map) => {
             let fields = map.iter().map(|(key, item)| (Some(key), item));

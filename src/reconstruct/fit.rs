@@ -71,15 +71,8 @@ fn squared_residuals(internal: &InternalScene, solved: &Solved) -> Result<Square
 /// follow from others, and the contact point's place along the impulse is none.
 fn free_parameters(internal: &InternalScene) -> usize {
     let bodies = &internal.paper.bodies;
-    let flights: usize = bodies
-        .iter()
-        .map(|body| if body.has_spin { 12 } else { 6 })
-        .sum();
-    let line_of_action = if bodies.iter().any(|body| body.has_spin) {
-        2
-    } else {
-        0
-    };
+    let flights: usize = bodies.iter().map(|body| if body.has_spin { 12 } else { 6 }).sum();
+    let line_of_action = if bodies.iter().any(|body| body.has_spin) { 2 } else { 0 };
     let (impulse, tilt, mass_ratio) = (3, 2, bodies.len() - 1);
     flights + impulse + line_of_action + tilt + mass_ratio
 }

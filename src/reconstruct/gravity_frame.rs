@@ -62,19 +62,11 @@ mod tests {
 
     #[test]
     fn up_becomes_minus_y_for_any_up() {
-        for up in [
-            Vector3::y(),
-            -Vector3::y(),
-            Vector3::z(),
-            Vector3::new(-0.3, 0.5, 0.2),
-        ] {
+        for up in [Vector3::y(), -Vector3::y(), Vector3::z(), Vector3::new(-0.3, 0.5, 0.2)] {
             let up = UnitVector3::new_normalize(up);
             let frame = GravityFrame::new(&up);
             let turned = Vector3::from(frame.vector_from_world(&up));
-            assert!(
-                (turned + Vector3::y()).norm() < 1e-14,
-                "{up:?} became {turned:?}"
-            );
+            assert!((turned + Vector3::y()).norm() < 1e-14, "{up:?} became {turned:?}");
             assert!((frame.vector_to_world(turned) - up.into_inner()).norm() < 1e-14);
         }
     }

@@ -24,18 +24,14 @@ impl InternalScene {
     pub(super) fn new(scene: &Scene) -> Result<Self> {
         let frame = GravityFrame::new(&scene.up_in_world());
         let frames_per_second = scene.fps().unwrap_or(NOMINAL_FRAMES_PER_SECOND);
-        let bodies = scene
-            .bodies()
-            .iter()
-            .map(|body| paper_body(body, frames_per_second, &frame));
+        let bodies = scene.bodies().iter().map(|body| paper_body(body, frames_per_second, &frame));
         let plane = scene.plane();
         let paper = PaperScene {
             frames_per_second,
             gravity_m_s2: scene.gravity_m_s2(),
             bodies: bodies.collect(),
-            plane_normal: plane.map_or([0.0; 3], |plane| {
-                frame.vector_from_world(&plane.normal_in_world)
-            }),
+            plane_normal: plane
+                .map_or([0.0; 3], |plane| frame.vector_from_world(&plane.normal_in_world)),
             plane_height_m: plane.map_or(0.0, |plane| plane.height_m),
         };
         check_work(&paper)?;
@@ -60,9 +56,7 @@ fn paper_body(body: &DynamicBody, frames_per_second: f64, frame: &GravityFrame) 
             position: frame.vector_from_world(&observation.position_in_world),
             orientation: observation
                 .world_from_body
-                .map_or([1.0, 0.0, 0.0, 0.0], |q| {
-                    to_wxyz(&frame.orientation_from_world(&q))
-                }),
+                .map_or([1.0, 0.0, 0.0, 0.0], |q| to_wxyz(&frame.orientation_from_world(&q))),
             has_orientation: observation.world_from_body.is_some(),
         })
         .collect();
@@ -76,13 +70,7 @@ fn paper_body(body: &DynamicBody, frames_per_second: f64, frame: &GravityFrame) 
 
 /// Refuses what would seem to hang: every segment integrates from its middle to every pose.
 fn check_work(paper: &PaperScene) -> Result<()> {
-    let times = || {
-        paper
-            .bodies
-            .iter()
-            .flat_map(|b| &b.observations)
-            .map(|o| o.time_frames)
-    };
+    let times = || paper.bodies.iter().flat_map(|b| &b.observations).map(|o| o.time_frames);
     let first = times().fold(f64::INFINITY, f64::min);
     let last = times().fold(f64::NEG_INFINITY, f64::max);
     let poses = times().count() as f64;

@@ -34,20 +34,14 @@ pub struct Options {
 impl Options {
     /// The paper to the letter: its energy, its phases, its criterion.
     pub fn paper() -> Self {
-        Options {
-            segment_by: SegmentCriterion::Distance,
-            seed: 0,
-        }
+        Options { segment_by: SegmentCriterion::Distance, seed: 0 }
     }
 }
 
 impl Default for Options {
     /// The paper's energy with the criterion that finds the right segment far more often.
     fn default() -> Self {
-        Options {
-            segment_by: SegmentCriterion::Cost,
-            ..Options::paper()
-        }
+        Options { segment_by: SegmentCriterion::Cost, ..Options::paper() }
     }
 }
 
@@ -100,9 +94,6 @@ pub fn reconstruct_with_progress(
 }
 
 fn solver_error(error: cxx::Exception) -> Error {
-    Error::new(
-        ErrorKind::Solve,
-        format!("the optimiser failed: {}", error.what()),
-    )
-    .mend("look at the scene for poses far off their neighbours, and at its sizes")
+    Error::new(ErrorKind::Solve, format!("the optimiser failed: {}", error.what()))
+        .mend("look at the scene for poses far off their neighbours, and at its sizes")
 }

@@ -33,26 +33,15 @@ pub(super) fn solve(
         let solution = ffi::solve_paper_phase(scene, segment.collision_frames, phase, start)
             .map_err(super::solver_error)?;
         phases.push(report(name, &solution, started.elapsed().as_secs_f64()));
-        progress(Progress {
-            stage,
-            cost: solution.cost_final,
-        });
+        progress(Progress { stage, cost: solution.cost_final });
         Ok(solution)
     };
-    let mut impulse = run(
-        "2 impulse",
-        PaperPhase::Impulse,
-        Stage::Impulse,
-        &trajectories.unknowns,
-    )?;
+    let mut impulse =
+        run("2 impulse", PaperPhase::Impulse, Stage::Impulse, &trajectories.unknowns)?;
     // Phase 2 has no contact point of its own: phase 3 starts from where it was tied to.
     impulse.unknowns.contact_point = tied_contact_point(scene, &impulse.unknowns.bodies);
-    let contact = run(
-        "3 contact point",
-        PaperPhase::ContactPoint,
-        Stage::ContactPoint,
-        &impulse.unknowns,
-    )?;
+    let contact =
+        run("3 contact point", PaperPhase::ContactPoint, Stage::ContactPoint, &impulse.unknowns)?;
     Ok(Solved {
         collision_frames: segment.collision_frames,
         cost: contact.cost_final,

@@ -32,9 +32,8 @@ pub(super) fn reconstruction(
     options: &Options,
     solved: &Solved,
 ) -> Result<Reconstruction> {
-    let states: Vec<States> = (0..scene.bodies().len())
-        .map(|index| states(scene, internal, solved, index))
-        .collect();
+    let states: Vec<States> =
+        (0..scene.bodies().len()).map(|index| states(scene, internal, solved, index)).collect();
     let fit = fit(internal, solved, scene.noise())?;
     let impulse = world_vector(internal, solved.unknowns.impulse);
     let contact_point = world_vector(internal, solved.unknowns.contact_point);
@@ -42,10 +41,8 @@ pub(super) fn reconstruction(
         Some(plane) => Some(plane.normal_in_world),
         None => UnitVector3::try_new(impulse, f64::MIN_POSITIVE),
     };
-    let contact = normal.map(|normal| Contact {
-        point_in_world: contact_point,
-        normal_in_world: normal,
-    });
+    let contact =
+        normal.map(|normal| Contact { point_in_world: contact_point, normal_in_world: normal });
     let pushed = is_pushed(internal, solved, &states, fit.position_rmse);
     let mass_ratio = (states.len() == 2).then(|| match pushed {
         true => estimate(solved.unknowns.mass_ratio),
@@ -72,11 +69,7 @@ pub(super) fn reconstruction(
         effects: Vec::new(),
         fit,
         phases: solved.phases.clone(),
-        warnings: scene
-            .warnings()
-            .iter()
-            .map(|warning| warning.text.clone())
-            .collect(),
+        warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
     })
 }
 
@@ -86,11 +79,7 @@ fn world_vector(internal: &InternalScene, v: [f64; 3]) -> Vector3<f64> {
 
 fn states(scene: &Scene, internal: &InternalScene, solved: &Solved, index: usize) -> States {
     let unknown = &solved.unknowns.bodies[index];
-    let mass = if index == 0 {
-        1.0
-    } else {
-        solved.unknowns.mass_ratio
-    };
+    let mass = if index == 0 { 1.0 } else { solved.unknowns.mass_ratio };
     let orientation = from_wxyz(unknown.orientation);
     let pose = RigidBody {
         position_in_world: world_vector(internal, unknown.position),
@@ -102,10 +91,7 @@ fn states(scene: &Scene, internal: &InternalScene, solved: &Solved, index: usize
         angular_momentum_in_world: world_vector(internal, flight.angular_momentum),
         ..pose
     };
-    States {
-        before: moving(&unknown.before),
-        after: moving(&unknown.after),
-    }
+    States { before: moving(&unknown.before), after: moving(&unknown.after) }
 }
 
 /// v(t_c) = fps R (b₃, b₂, 0) (SMASH eq. 7, in the order of its eq. 5).
@@ -121,9 +107,7 @@ fn collision_velocity(
         * turn(Vector3::x_axis(), tilt)
         * turn(Vector3::y_axis(), azimuth);
     let per_frame = rotation * Vector3::new(b3, b2, 0.0);
-    internal
-        .frame
-        .vector_to_world(per_frame * internal.paper.frames_per_second)
+    internal.frame.vector_to_world(per_frame * internal.paper.frames_per_second)
 }
 
 /// Whether the jumps in velocity moved a body by more than the fit's error while it was watched.
@@ -133,18 +117,12 @@ fn is_pushed(
     states: &[States],
     position_rmse: f64,
 ) -> bool {
-    states
-        .iter()
-        .zip(&internal.paper.bodies)
-        .any(|(states, body)| {
-            let last = body
-                .observations
-                .last()
-                .map_or(solved.collision_frames, |o| o.time_frames);
-            let watched_s = internal.seconds(last - solved.collision_frames).max(0.0);
-            let jump = states.after.velocity_in_world - states.before.velocity_in_world;
-            jump.norm() * watched_s > position_rmse
-        })
+    states.iter().zip(&internal.paper.bodies).any(|(states, body)| {
+        let last = body.observations.last().map_or(solved.collision_frames, |o| o.time_frames);
+        let watched_s = internal.seconds(last - solved.collision_frames).max(0.0);
+        let jump = states.after.velocity_in_world - states.before.velocity_in_world;
+        jump.norm() * watched_s > position_rmse
+    })
 }
 
 fn restitution(contact: Option<Contact>, states: &[States], on_plane: bool) -> Estimate {
@@ -159,20 +137,13 @@ fn restitution(contact: Option<Contact>, states: &[States], on_plane: bool) -> E
         (&states[0].before, partner.map(|b| &b.before)),
         (&states[0].after, partner.map(|b| &b.after)),
     );
-    if value.is_finite() {
-        estimate(value)
-    } else {
-        unknown(NO_APPROACH)
-    }
+    if value.is_finite() { estimate(value) } else { unknown(NO_APPROACH) }
 }
 
 fn flags(solved: &Solved, pushed: bool, two_bodies: bool, restitution: &Estimate) -> Vec<Flag> {
     let out_of_range = restitution.value.is_some_and(|c| !(0.0..=1.0).contains(&c));
     [
-        (
-            two_bodies && mass_ratio_at_bound(solved.unknowns.mass_ratio),
-            Flag::MassRatioAtBound,
-        ),
+        (two_bodies && mass_ratio_at_bound(solved.unknowns.mass_ratio), Flag::MassRatioAtBound),
         (out_of_range, Flag::RestitutionOutOfRange),
         (!solved.converged, Flag::NotConverged),
         (two_bodies && !pushed, Flag::MassRatioUnidentifiable),
@@ -192,11 +163,7 @@ fn body_result(
     let observations = &internal.paper.bodies[index].observations;
     let seen = |before: bool| {
         let on_side = |o: &&PaperObservation| (o.time_frames < solved.collision_frames) == before;
-        observations
-            .iter()
-            .filter(on_side)
-            .filter(|o| o.has_orientation)
-            .count()
+        observations.iter().filter(on_side).filter(|o| o.has_orientation).count()
     };
     let (seen_before, seen_after) = (seen(true), seen(false));
     // Two orientations tell a flight's spin; one does where the other side gives the pose at t_c.
@@ -219,17 +186,9 @@ fn body_result(
 }
 
 fn estimate(value: f64) -> Estimate {
-    Estimate {
-        value: Some(value),
-        std: None,
-        reason: Some(NO_STD.to_string()),
-    }
+    Estimate { value: Some(value), std: None, reason: Some(NO_STD.to_string()) }
 }
 
 fn unknown(reason: &str) -> Estimate {
-    Estimate {
-        value: None,
-        std: None,
-        reason: Some(reason.to_string()),
-    }
+    Estimate { value: None, std: None, reason: Some(reason.to_string()) }
 }

@@ -29,21 +29,19 @@ pub(super) fn search(
     options: &Options,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<SolvedSegment> {
-    let midpoints = segment_midpoints(scene);
+    let mut midpoints = segment_midpoints(scene);
+    if options.segment_by == SegmentCriterion::Cost {
+        // A single pose on a side fits any parabola at no cost.
+        midpoints.retain(|&midpoint| leaves_two_poses_a_side(scene, midpoint));
+    }
     let segments = midpoints.len();
     let solved: Vec<Result<SolvedSegment>> = midpoints
         .into_par_iter()
         .enumerate()
         .map(|(index, collision_frames)| {
             let segment = solve_segment(scene, collision_frames, options.seed)?;
-            let stage = Stage::Segment {
-                number: index + 1,
-                of: segments,
-            };
-            progress(Progress {
-                stage,
-                cost: segment.solution.cost_final,
-            });
+            let stage = Stage::Segment { number: index + 1, of: segments };
+            progress(Progress { stage, cost: segment.solution.cost_final });
             Ok(segment)
         })
         .collect();
@@ -63,10 +61,7 @@ pub(super) fn search(
     match (best, failure) {
         (Some((_, segment)), _) => Ok(segment),
         (None, Some(error)) => Err(error),
-        (None, None) => Err(Error::new(
-            ErrorKind::Solve,
-            "there is no segment to search",
-        )),
+        (None, None) => Err(Error::new(ErrorKind::Solve, "there is no segment to search")),
     }
 }
 
@@ -76,10 +71,14 @@ fn segment_midpoints(scene: &PaperScene) -> Vec<f64> {
     let mut times: Vec<f64> = observations.map(|o| o.time_frames).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
-    times
-        .windows(2)
-        .map(|pair| (pair[0] + pair[1]) / 2.0)
-        .collect()
+    times.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect()
+}
+
+fn leaves_two_poses_a_side(scene: &PaperScene, midpoint: f64) -> bool {
+    scene.bodies.iter().all(|body| {
+        let before = body.observations.partition_point(|o| o.time_frames < midpoint);
+        before >= 2 && body.observations.len() - before >= 2
+    })
 }
 
 fn solve_segment(scene: &PaperScene, collision_frames: f64, seed: u64) -> Result<SolvedSegment> {
@@ -89,11 +88,7 @@ fn solve_segment(scene: &PaperScene, collision_frames: f64, seed: u64) -> Result
         ffi::solve_paper_phase(scene, collision_frames, PaperPhase::Trajectories, &start)
             .map_err(super::solver_error)?;
     let seconds = started.elapsed().as_secs_f64();
-    Ok(SolvedSegment {
-        collision_frames,
-        solution,
-        seconds,
-    })
+    Ok(SolvedSegment { collision_frames, solution, seconds })
 }
 
 /// What the best segment has least of.

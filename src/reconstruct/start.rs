@@ -19,11 +19,8 @@ const IMPULSE: f64 = 0.1;
 /// The start for a collision at `collision_frames`. `seed` makes the paper's random impulse.
 pub(super) fn start_values(scene: &PaperScene, collision_frames: f64, seed: u64) -> PaperUnknowns {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let bodies: Vec<_> = scene
-        .bodies
-        .iter()
-        .map(|body| start_body(scene, body, collision_frames))
-        .collect();
+    let bodies: Vec<_> =
+        scene.bodies.iter().map(|body| start_body(scene, body, collision_frames)).collect();
     PaperUnknowns {
         contact_point: tied_contact_point(scene, &bodies),
         bodies,
@@ -54,11 +51,7 @@ fn start_body(scene: &PaperScene, body: &PaperBody, collision_frames: f64) -> Pa
     let omega_in_body = orientation.inverse_transform_vector(&omega_in_world);
     let angular_momentum = orientation * inertia.component_mul(&omega_in_body);
     let flight = PaperFlight {
-        parabola: [
-            VERTICAL_SPEED,
-            HORIZONTAL_SPEED_M_S / scene.frames_per_second,
-            AZIMUTH_RAD,
-        ],
+        parabola: [VERTICAL_SPEED, HORIZONTAL_SPEED_M_S / scene.frames_per_second, AZIMUTH_RAD],
         angular_momentum: angular_momentum.into(),
     };
     PaperBodyUnknowns {
@@ -73,8 +66,7 @@ fn start_position(body: &PaperBody, collision_frames: f64) -> [f64; 3] {
     let times: Vec<f64> = body.observations.iter().map(|o| o.time_frames).collect();
     let (first, second) = neighbours(&times, collision_frames);
     let [from, to] = [first, second].map(|i| Vector3::from(body.observations[i].position));
-    from.lerp(&to, share(times[first], times[second], collision_frames))
-        .into()
+    from.lerp(&to, share(times[first], times[second], collision_frames)).into()
 }
 
 /// Slerp across the segment: the orientation at the collision, and its constant angular velocity
@@ -84,11 +76,7 @@ fn start_rotation(
     body: &PaperBody,
     collision_frames: f64,
 ) -> (UnitQuaternion<f64>, Vector3<f64>) {
-    let seen: Vec<_> = body
-        .observations
-        .iter()
-        .filter(|o| o.has_orientation)
-        .collect();
+    let seen: Vec<_> = body.observations.iter().filter(|o| o.has_orientation).collect();
     if !body.has_spin {
         return (UnitQuaternion::identity(), Vector3::zeros());
     }
@@ -105,9 +93,7 @@ fn start_rotation(
 /// The two of the sorted `times` around `time`, or the nearest two at an end. There are at least
 /// two.
 fn neighbours(times: &[f64], time: f64) -> (usize, usize) {
-    let second = times
-        .partition_point(|&t| t < time)
-        .clamp(1, times.len() - 1);
+    let second = times.partition_point(|&t| t < time).clamp(1, times.len() - 1);
     (second - 1, second)
 }
 

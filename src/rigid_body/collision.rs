@@ -21,9 +21,8 @@ impl Contact {
     /// negative when the bodies approach.
     pub fn normal_velocity(&self, a: &RigidBody, partner: Option<&RigidBody>) -> f64 {
         let of_a = a.point_velocity_in_world(&self.point_in_world);
-        let of_partner = partner.map_or_else(Vector3::zeros, |b| {
-            b.point_velocity_in_world(&self.point_in_world)
-        });
+        let of_partner = partner
+            .map_or_else(Vector3::zeros, |b| b.point_velocity_in_world(&self.point_in_world));
         self.normal_in_world.dot(&(of_a - of_partner))
     }
 
@@ -62,8 +61,7 @@ impl Contact {
             ..*body
         };
         let pushed = at_rest.pushed(&self.point_in_world, &self.normal_in_world);
-        self.normal_in_world
-            .dot(&pushed.point_velocity_in_world(&self.point_in_world))
+        self.normal_in_world.dot(&pushed.point_velocity_in_world(&self.point_in_world))
     }
 }
 

@@ -29,9 +29,8 @@ pub fn rotate_freely(
     let turning_rad = turning_bound_rad(inertia, k_in_world, duration_s);
     let steps = (turning_rad / LARGEST_STEP_RAD).ceil().max(1.0);
     let step_s = duration_s / steps;
-    let turned = (0..steps as u64).fold(*world_from_body, |q, _| {
-        munthe_kaas_step(&q, inertia, k_in_world, step_s)
-    });
+    let turned = (0..steps as u64)
+        .fold(*world_from_body, |q, _| munthe_kaas_step(&q, inertia, k_in_world, step_s));
     // Rounding in some thousand products of unit quaternions.
     UnitQuaternion::new_normalize(turned.into_inner())
 }
@@ -43,11 +42,7 @@ pub fn turning_bound_rad(
     k_in_world: &Vector3<f64>,
     duration_s: f64,
 ) -> f64 {
-    if is_isotropic(inertia) {
-        0.0
-    } else {
-        k_in_world.norm() / inertia.min() * duration_s.abs()
-    }
+    if is_isotropic(inertia) { 0.0 } else { k_in_world.norm() / inertia.min() * duration_s.abs() }
 }
 
 fn is_isotropic(inertia: &Vector3<f64>) -> bool {

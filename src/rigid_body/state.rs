@@ -41,9 +41,7 @@ impl RigidBody {
     /// The same body with the angular velocity `omega_in_world`, in rad/s: k = R I₀ Rᵀ ω.
     #[must_use]
     pub fn spinning(mut self, omega_in_world: &Vector3<f64>) -> Self {
-        let omega_in_body = self
-            .world_from_body
-            .inverse_transform_vector(omega_in_world);
+        let omega_in_body = self.world_from_body.inverse_transform_vector(omega_in_world);
         let k_in_body = omega_in_body.component_mul(&self.principal_inertia);
         self.angular_momentum_in_world = self.world_from_body.transform_vector(&k_in_body);
         self

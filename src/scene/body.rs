@@ -9,36 +9,13 @@ use crate::{Error, Result};
 
 /// The static body at `place`.
 pub(super) fn static_plane(place: &str, body: BodyFile) -> Result<StaticPlane> {
-    refuse(
-        place,
-        "shape",
-        body.shape.is_some(),
-        "a static body is a plane",
-    )?;
-    refuse(
-        place,
-        "observations",
-        body.observations.is_some(),
-        "a static body doesn't move",
-    )?;
-    let normal = needed(
-        place,
-        "normal",
-        body.normal,
-        "a static body is the plane normal·p = height",
-    )?;
-    let height = needed(
-        place,
-        "height",
-        body.height,
-        "a static body is the plane normal·p = height",
-    )?;
-    check_range(
-        &format!("{place}.height"),
-        height,
-        &POSITION_M,
-        "give the height in m",
-    )?;
+    refuse(place, "shape", body.shape.is_some(), "a static body is a plane")?;
+    refuse(place, "observations", body.observations.is_some(), "a static body doesn't move")?;
+    let normal =
+        needed(place, "normal", body.normal, "a static body is the plane normal·p = height")?;
+    let height =
+        needed(place, "height", body.height, "a static body is the plane normal·p = height")?;
+    check_range(&format!("{place}.height"), height, &POSITION_M, "give the height in m")?;
     Ok(StaticPlane {
         name: body.name,
         normal_in_world: unit_vector(&format!("{place}.normal"), normal)?,
@@ -58,29 +35,19 @@ pub(super) fn dynamic_body(
     refuse(place, "height", body.height.is_some(), only_static)?;
     let shape = needed(place, "shape", body.shape, "a dynamic body has a shape")?;
     check_shape(place, &shape)?;
-    let files = needed(
-        place,
-        "observations",
-        body.observations,
-        "a dynamic body has poses",
-    )?;
+    let files = needed(place, "observations", body.observations, "a dynamic body has poses")?;
     let place = format!("{place}.observations");
     if files.len() > MOST_OBSERVATIONS {
         let problem = format!("holds {} observations", files.len());
-        return Err(Error::invalid(place, problem).mend(format!(
-            "keep {MOST_OBSERVATIONS} or fewer, around the collision"
-        )));
+        return Err(Error::invalid(place, problem)
+            .mend(format!("keep {MOST_OBSERVATIONS} or fewer, around the collision")));
     }
     let mut observations = Vec::with_capacity(files.len());
     for (index, file) in files.iter().enumerate() {
         observations.push(observation(&format!("{place}[{index}]"), file, fps)?);
     }
     let observations = order::sorted(&body.name, &place, observations, warnings)?;
-    Ok(DynamicBody {
-        name: body.name,
-        shape,
-        observations,
-    })
+    Ok(DynamicBody { name: body.name, shape, observations })
 }
 
 pub(crate) fn check_shape(place: &str, shape: &Shape) -> Result<()> {
@@ -107,18 +74,11 @@ fn observation(place: &str, file: &ObservationFile, fps: Option<f64>) -> Result<
                 .mend("add the frame number, or the time in s"));
         }
         (Some(_), None, None) => {
-            return Err(
-                Error::invalid(place, "gives a `frame`, but the scene has no `fps`")
-                    .mend("add `fps`, the frames per second, at the top of the scene"),
-            );
+            return Err(Error::invalid(place, "gives a `frame`, but the scene has no `fps`")
+                .mend("add `fps`, the frames per second, at the top of the scene"));
         }
         (None, Some(time), _) => {
-            check_range(
-                &format!("{place}.time"),
-                time,
-                &TIME_S,
-                "give the time in s",
-            )?;
+            check_range(&format!("{place}.time"), time, &TIME_S, "give the time in s")?;
             time
         }
         (Some(frame), None, Some(fps)) => {
@@ -133,9 +93,5 @@ fn observation(place: &str, file: &ObservationFile, fps: Option<f64>) -> Result<
         None => None,
     };
     let position_in_world = position(&format!("{place}.position"), file.position)?;
-    Ok(Observation {
-        time_s,
-        position_in_world,
-        world_from_body,
-    })
+    Ok(Observation { time_s, position_in_world, world_from_body })
 }

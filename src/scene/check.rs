@@ -17,27 +17,12 @@ impl Scene {
         check_schema(&file.schema, SCENE_SCHEMA)?;
         check_name("name", &file.name)?;
         if let Some(fps) = file.fps {
-            check_range(
-                "fps",
-                fps,
-                &FPS,
-                "give the frames per second of the recording",
-            )?;
+            check_range("fps", fps, &FPS, "give the frames per second of the recording")?;
         }
-        check_range(
-            "gravity",
-            file.gravity,
-            &GRAVITY_M_S2,
-            "give gravity in m/s², such as 9.81",
-        )?;
+        check_range("gravity", file.gravity, &GRAVITY_M_S2, "give gravity in m/s², such as 9.81")?;
         let up_in_world = unit_vector("up", file.up)?;
         if let Some(noise) = file.noise {
-            check_range(
-                "noise.position",
-                noise.position,
-                &NOISE,
-                "give one σ in m, above 0",
-            )?;
+            check_range("noise.position", noise.position, &NOISE, "give one σ in m, above 0")?;
             let mend = "give one σ in rad, above 0";
             check_range("noise.orientation", noise.orientation, &NOISE, mend)?;
         }
@@ -77,10 +62,7 @@ impl Scene {
 }
 
 fn check_bodies(bodies: &[BodyFile]) -> Result<()> {
-    let planes = bodies
-        .iter()
-        .filter(|body| body.is_static == Some(true))
-        .count();
+    let planes = bodies.iter().filter(|body| body.is_static == Some(true)).count();
     let wanted = "a scene has 1 or 2 dynamic bodies, or 1 dynamic and 1 static";
     match (bodies.len() - planes, planes) {
         (1 | 2, 0) | (1, 1) => {}

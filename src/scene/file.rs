@@ -146,9 +146,9 @@ impl<'de> Deserialize<'de> for Shape {
                 "is a box with a `radius`; remove `radius`, or make it a sphere",
             )),
             (ShapeType::Box, None, None) => Err(D::Error::missing_field("size")),
-            (ShapeType::Sphere, Some(_), _) => Err(D::Error::custom(
-                "is a sphere with a `size`; remove `size`, or make it a box",
-            )),
+            (ShapeType::Sphere, Some(_), _) => {
+                Err(D::Error::custom("is a sphere with a `size`; remove `size`, or make it a box"))
+            }
             (ShapeType::Sphere, None, None) => Err(D::Error::missing_field("radius")),
         }
     }

@@ -31,11 +31,8 @@ impl Scene {
 
 /// The gaps with `least` or more poses of each body on each side, in order of time.
 pub(super) fn with_poses(bodies: &[DynamicBody], least: usize) -> Vec<Gap> {
-    let mut times: Vec<f64> = bodies
-        .iter()
-        .flat_map(|body| &body.observations)
-        .map(|seen| seen.time_s)
-        .collect();
+    let mut times: Vec<f64> =
+        bodies.iter().flat_map(|body| &body.observations).map(|seen| seen.time_s).collect();
     times.sort_by(f64::total_cmp);
     let has_enough = |gap: &Gap| {
         bodies.iter().all(|body| {
@@ -43,19 +40,13 @@ pub(super) fn with_poses(bodies: &[DynamicBody], least: usize) -> Vec<Gap> {
             before >= least && body.observations.len() - before >= least
         })
     };
-    let gaps = times.windows(2).map(|pair| Gap {
-        start_s: pair[0],
-        end_s: pair[1],
-    });
-    gaps.filter(|gap| gap.end_s - gap.start_s >= SAME_TIME_S)
-        .filter(has_enough)
-        .collect()
+    let gaps = times.windows(2).map(|pair| Gap { start_s: pair[0], end_s: pair[1] });
+    gaps.filter(|gap| gap.end_s - gap.start_s >= SAME_TIME_S).filter(has_enough).collect()
 }
 
 /// How many of the body's poses are before the gap.
 pub(super) fn poses_before(body: &DynamicBody, gap: &Gap) -> usize {
-    body.observations
-        .partition_point(|seen| seen.time_s < gap.midpoint_s())
+    body.observations.partition_point(|seen| seen.time_s < gap.midpoint_s())
 }
 
 /// Checks that the collision can be somewhere.
@@ -79,12 +70,7 @@ pub(super) fn check(bodies: &[DynamicBody]) -> Result<()> {
         .map(|body| {
             let (first, last) = (body.observations.first(), body.observations.last());
             let time = |seen: Option<&super::Observation>| seen.map_or(0.0, |seen| seen.time_s);
-            format!(
-                "{} from {} s to {} s",
-                quoted(&body.name),
-                time(first),
-                time(last)
-            )
+            format!("{} from {} s to {} s", quoted(&body.name), time(first), time(last))
         })
         .collect();
     let problem = format!(

@@ -19,9 +19,7 @@ pub(super) fn sorted(
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Observation>> {
     let mut numbered: Vec<_> = observations.into_iter().enumerate().collect();
-    let unordered = numbered
-        .windows(2)
-        .find(|pair| pair[1].1.time_s < pair[0].1.time_s);
+    let unordered = numbered.windows(2).find(|pair| pair[1].1.time_s < pair[0].1.time_s);
     if let Some(pair) = unordered {
         warnings.push(Warning {
             text: format!(
@@ -67,10 +65,7 @@ pub(super) fn sorted(
                 .mend("check `fps` and the times; keep the poses around the collision"));
         }
     }
-    Ok(kept
-        .into_iter()
-        .map(|(_, observation)| observation)
-        .collect())
+    Ok(kept.into_iter().map(|(_, observation)| observation).collect())
 }
 
 fn is_same_pose(one: &Observation, other: &Observation) -> bool {

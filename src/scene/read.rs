@@ -30,12 +30,7 @@ impl Scene {
         let bodies = self.bodies.iter().map(|body| BodyFile {
             name: body.name.clone(),
             shape: Some(body.shape),
-            observations: Some(
-                body.observations
-                    .iter()
-                    .map(ObservationFile::from)
-                    .collect(),
-            ),
+            observations: Some(body.observations.iter().map(ObservationFile::from).collect()),
             is_static: None,
             normal: None,
             height: None,

@@ -8,12 +8,8 @@ use crate::words::quoted;
 
 /// What people mean instead of m: how many go into a metre, and the factor around that number
 /// that still points to the unit. Wrong frame rates give factors too, hence the narrow ones.
-const UNITS: [(&str, f64, f64); 4] = [
-    ("mm", 1000.0, 1.5),
-    ("cm", 100.0, 1.5),
-    ("inches", 39.37, 1.2),
-    ("feet", 3.281, 1.05),
-];
+const UNITS: [(&str, f64, f64); 4] =
+    [("mm", 1000.0, 1.5), ("cm", 100.0, 1.5), ("inches", 39.37, 1.2), ("feet", 3.281, 1.05)];
 /// Gravity on Earth in m/s², to judge the stated value.
 const EARTH_M_S2: f64 = 9.81;
 /// A fitted acceleration counts if its standard error is below this fraction of it: half the
@@ -29,11 +25,7 @@ pub(super) fn look(scene: &Scene) -> Vec<Warning> {
     let bodies = scene.bodies().iter();
     let gravity = stated_gravity(scene.gravity_m_s2());
     let falls = bodies.clone().filter_map(|body| fall(scene, body));
-    gravity
-        .into_iter()
-        .chain(falls)
-        .chain(bodies.filter_map(size))
-        .collect()
+    gravity.into_iter().chain(falls).chain(bodies.filter_map(size)).collect()
 }
 
 fn stated_gravity(gravity_m_s2: f64) -> Option<Warning> {
@@ -47,17 +39,11 @@ fn stated_gravity(gravity_m_s2: f64) -> Option<Warning> {
 fn fall(scene: &Scene, body: &DynamicBody) -> Option<Warning> {
     let acceleration = downward_acceleration(scene, body)?;
     let ratio = acceleration / scene.gravity_m_s2();
-    let falls = format!(
-        "body {} falls with {acceleration:.4} m/s²",
-        quoted(&body.name)
-    );
+    let falls = format!("body {} falls with {acceleration:.4} m/s²", quoted(&body.name));
     // Twice gravity's tilt and scale at the most: a fall upwards is no small effect.
     if (-1.2..=-0.8).contains(&ratio) {
         let text = format!("{falls}: `up` seems to point down");
-        return Some(Warning {
-            text,
-            mend: "turn the sign of `up`".into(),
-        });
+        return Some(Warning { text, mend: "turn the sign of `up`".into() });
     }
     let unit = unit_of(ratio)?;
     Some(Warning {
@@ -72,9 +58,8 @@ fn size(body: &DynamicBody) -> Option<Warning> {
         Shape::Sphere { radius } => 2.0 * radius,
     };
     let steps = body.observations.windows(2);
-    let path: f64 = steps
-        .map(|pair| (pair[1].position_in_world - pair[0].position_in_world).norm())
-        .sum();
+    let path: f64 =
+        steps.map(|pair| (pair[1].position_in_world - pair[0].position_in_world).norm()).sum();
     (path > 0.0 && smallest > LARGEST_SIZE_PER_PATH * path).then(|| Warning {
         text: format!(
             "body {}: its size of {smallest} m is more than {LARGEST_SIZE_PER_PATH} times its \
@@ -88,10 +73,7 @@ fn size(body: &DynamicBody) -> Option<Warning> {
 /// The unit whose number in a metre the `ratio` is.
 fn unit_of(ratio: f64) -> Option<&'static str> {
     let fits = |per_metre: f64, factor| (per_metre / factor..per_metre * factor).contains(&ratio);
-    UNITS
-        .iter()
-        .find(|&&(_, per_metre, factor)| fits(per_metre, factor))
-        .map(|&(unit, ..)| unit)
+    UNITS.iter().find(|&&(_, per_metre, factor)| fits(per_metre, factor)).map(|&(unit, ..)| unit)
 }
 
 /// The acceleration against `up` in m/s², if the longer side of the collision shows it clearly.
@@ -113,11 +95,7 @@ fn downward_acceleration(scene: &Scene, body: &DynamicBody) -> Option<f64> {
         .min_by(|one, other| one.0.total_cmp(&other.0))?
         .1;
     let span = |side: &[[f64; 2]]| side[side.len() - 1][0] - side[0][0];
-    let longest = if span(before) > span(after) {
-        before
-    } else {
-        after
-    };
+    let longest = if span(before) > span(after) { before } else { after };
     let fit = Parabola::fit(longest)?;
     let is_sure = fit.acceleration_std < SURE * fit.acceleration.abs();
     is_sure.then_some(-fit.acceleration)

@@ -26,29 +26,20 @@ pub(crate) fn check_name(place: &str, name: &str) -> Result<()> {
 /// A point in the world, in m.
 pub(crate) fn position(place: &str, coordinates: [f64; 3]) -> Result<Vector3<f64>> {
     for (axis, &value) in coordinates.iter().enumerate() {
-        check_range(
-            &format!("{place}[{axis}]"),
-            value,
-            &POSITION_M,
-            "give coordinates in m",
-        )?;
+        check_range(&format!("{place}[{axis}]"), value, &POSITION_M, "give coordinates in m")?;
     }
     Ok(Vector3::from(coordinates))
 }
 
 pub(crate) fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVector3<f64>> {
     let length = unit_length(place, &coordinates)?;
-    Ok(UnitVector3::new_unchecked(
-        Vector3::from(coordinates) / length,
-    ))
+    Ok(UnitVector3::new_unchecked(Vector3::from(coordinates) / length))
 }
 
 pub(crate) fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
     let length = unit_length(place, &wxyz)?;
     let [w, x, y, z] = wxyz;
-    Ok(UnitQuaternion::new_unchecked(
-        Quaternion::new(w, x, y, z) / length,
-    ))
+    Ok(UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z) / length))
 }
 
 /// The length of what should have length 1; exactly 1 if it is 1 but for rounding, so that what
@@ -68,10 +59,7 @@ fn unit_length(place: &str, values: &[f64]) -> Result<f64> {
     Err(if length == 0.0 && values.len() == 4 {
         error.mend("leave `orientation` out if it wasn't measured")
     } else if length.is_normal() && length < 1e100 {
-        let unit: Vec<_> = values
-            .iter()
-            .map(|value| format!("{:.6}", value / length))
-            .collect();
+        let unit: Vec<_> = values.iter().map(|value| format!("{:.6}", value / length)).collect();
         error.mend(format!("divide it by its length: [{}]", unit.join(", ")))
     } else {
         error.mend("give a vector of length 1")
@@ -88,11 +76,7 @@ pub(crate) fn check_range(
     if range.contains(&value) {
         return Ok(());
     }
-    let problem = format!(
-        "{value:?} is not within {:e} to {:e}",
-        range.start(),
-        range.end()
-    );
+    let problem = format!("{value:?} is not within {:e} to {:e}", range.start(), range.end());
     Err(Error::invalid(place, problem).mend(mend))
 }
 
@@ -107,11 +91,8 @@ pub(crate) fn needed<T>(place: &str, field: &str, value: Option<T>, why: &str) -
 /// A field that this kind of body hasn't.
 pub(crate) fn refuse(place: &str, field: &str, is_there: bool, why: &str) -> Result<()> {
     if is_there {
-        return Err(Error::invalid(
-            format!("{place}.{field}"),
-            format!("is out of place: {why}"),
-        )
-        .mend(format!("remove `{field}`")));
+        return Err(Error::invalid(format!("{place}.{field}"), format!("is out of place: {why}"))
+            .mend(format!("remove `{field}`")));
     }
     Ok(())
 }

@@ -32,12 +32,10 @@ pub(super) fn look(scene: &Scene) -> Vec<Warning> {
 }
 
 fn few_poses(scene: &Scene) -> Option<Warning> {
-    gaps::with_poses(scene.bodies(), FEW_POSES)
-        .is_empty()
-        .then(|| Warning {
-            text: format!("fewer than {FEW_POSES} poses of a body before or after the collision"),
-            mend: "annotate more poses, or trust the result less: nothing checks the fit".into(),
-        })
+    gaps::with_poses(scene.bodies(), FEW_POSES).is_empty().then(|| Warning {
+        text: format!("fewer than {FEW_POSES} poses of a body before or after the collision"),
+        mend: "annotate more poses, or trust the result less: nothing checks the fit".into(),
+    })
 }
 
 /// A box whose orientations don't determine the spin on both sides of any gap. A ball's spin
@@ -46,17 +44,10 @@ fn unseen_spin(scene: &Scene, body: &DynamicBody) -> Option<Warning> {
     let Shape::Box { .. } = body.shape else {
         return None;
     };
-    let seen = body
-        .observations
-        .iter()
-        .filter(|seen| seen.world_from_body.is_some())
-        .count();
+    let seen = body.observations.iter().filter(|seen| seen.world_from_body.is_some()).count();
     let is_determined = scene.gaps().iter().any(|gap| {
         let before = &body.observations[..gaps::poses_before(body, gap)];
-        let before = before
-            .iter()
-            .filter(|seen| seen.world_from_body.is_some())
-            .count();
+        let before = before.iter().filter(|seen| seen.world_from_body.is_some()).count();
         before >= LEAST_POSES && seen - before >= LEAST_POSES
     });
     (!is_determined).then(|| Warning {
@@ -86,16 +77,12 @@ fn large_turns(body: &DynamicBody) -> Option<Warning> {
     let spin = |turn: &Turn| turn.angle / turn.step_s;
     let is_suspicious = |index: usize| {
         let turn = &turns[index];
-        let neighbours = turns[index.saturating_sub(1)..index]
-            .iter()
-            .chain(turns.get(index + 1));
+        let neighbours = turns[index.saturating_sub(1)..index].iter().chain(turns.get(index + 1));
         // The slower neighbour: at the collision the spin jumps, and only one side is fast.
         let slowest = neighbours.map(spin).min_by(f64::total_cmp).unwrap_or(0.0);
         turn.angle.to_degrees() > LARGE_TURN_DEG || slowest * turn.step_s > std::f64::consts::PI
     };
-    let suspicious: Vec<_> = (0..turns.len())
-        .filter(|&index| is_suspicious(index))
-        .collect();
+    let suspicious: Vec<_> = (0..turns.len()).filter(|&index| is_suspicious(index)).collect();
     let first = &turns[*suspicious.first()?];
     Some(Warning {
         text: format!(
@@ -113,10 +100,8 @@ fn large_turns(body: &DynamicBody) -> Option<Warning> {
 }
 
 fn turns(body: &DynamicBody) -> Vec<Turn> {
-    let seen = body
-        .observations
-        .iter()
-        .filter_map(|seen| Some((seen.time_s, seen.world_from_body?)));
+    let seen =
+        body.observations.iter().filter_map(|seen| Some((seen.time_s, seen.world_from_body?)));
     let seen: Vec<(f64, UnitQuaternion<f64>)> = seen.collect();
     let turn = |pair: &[(f64, UnitQuaternion<f64>)]| Turn {
         start_s: pair[0].0,
@@ -135,9 +120,7 @@ fn uneven_steps(body: &DynamicBody) -> Option<Warning> {
     sorted.sort_by(f64::total_cmp);
     let median = *sorted.get(sorted.len() / 2)?;
     let is_odd = |step: f64| (step / median - 1.0).abs() > EQUAL_STEP;
-    let odd: Vec<usize> = (0..steps.len())
-        .filter(|&index| is_odd(steps[index]))
-        .collect();
+    let odd: Vec<usize> = (0..steps.len()).filter(|&index| is_odd(steps[index])).collect();
     let longest = *sorted.last()? / median;
     let is_regular = (odd.len() as f64) <= (1.0 - REGULAR) * steps.len() as f64;
     let is_gap_at_collision = odd.len() == 1 && (1.0..=GAP_AT_COLLISION).contains(&longest);
@@ -146,9 +129,7 @@ fn uneven_steps(body: &DynamicBody) -> Option<Warning> {
         return None;
     }
     let deviation = |index: &usize| (steps[*index] / median).ln().abs();
-    let worst = *odd
-        .iter()
-        .max_by(|one, other| deviation(one).total_cmp(&deviation(other)))?;
+    let worst = *odd.iter().max_by(|one, other| deviation(one).total_cmp(&deviation(other)))?;
     Some(Warning {
         text: format!(
             "body {}: uneven steps: mostly {median:.6} s, but {:.6} s from {:.6} s to {:.6} s ({} \

@@ -77,12 +77,7 @@ pub(super) fn setup(spec: &SimulationSpec) -> Result<Setup> {
     let up_in_world = unit_vector("up", spec.up)?;
     let (a, partner) = bodies(spec)?;
     let strike = check_strike(&spec.collision, &a, &partner)?;
-    Ok(Setup {
-        up_in_world,
-        a,
-        partner,
-        strike,
-    })
+    Ok(Setup { up_in_world, a, partner, strike })
 }
 
 fn check_noise(noise: &NoiseSpec) -> Result<()> {
@@ -90,30 +85,22 @@ fn check_noise(noise: &NoiseSpec) -> Result<()> {
         NoiseSpec::None => Ok(()),
         NoiseSpec::Gaussian(sigma) => {
             let place = |field: &str| format!("noise.gaussian.{field}");
-            check_range(
-                &place("position"),
-                sigma.position,
-                &NOISE,
-                "give one σ in m, above 0",
-            )?;
+            check_range(&place("position"), sigma.position, &NOISE, "give one σ in m, above 0")?;
             let mend = "give one σ in rad, above 0";
             check_range(&place("orientation"), sigma.orientation, &NOISE, mend)
         }
         NoiseSpec::Uniform(fraction) if fraction > 0.0 && fraction < 1.0 => Ok(()),
-        NoiseSpec::Uniform(fraction) => Err(Error::invalid(
-            "noise.uniform",
-            format!("{fraction:?} is not between 0 and 1"),
-        )
-        .mend("give a fraction, such as 0.05 for 5 %, or write `\"noise\": \"none\"`")),
+        NoiseSpec::Uniform(fraction) => {
+            Err(Error::invalid("noise.uniform", format!("{fraction:?} is not between 0 and 1"))
+                .mend("give a fraction, such as 0.05 for 5 %, or write `\"noise\": \"none\"`"))
+        }
     }
 }
 
 fn bodies(spec: &SimulationSpec) -> Result<(Actor, Partner)> {
     let [first, second] = spec.bodies.as_slice() else {
-        return Err(
-            Error::invalid("bodies", format!("holds {}", spec.bodies.len()))
-                .mend("give two: two dynamic ones, or a dynamic and a static one"),
-        );
+        return Err(Error::invalid("bodies", format!("holds {}", spec.bodies.len()))
+            .mend("give two: two dynamic ones, or a dynamic and a static one"));
     };
     let is_static = |body: &BodySpec| body.is_static == Some(true);
     match (is_static(first), is_static(second)) {
@@ -125,23 +112,15 @@ fn bodies(spec: &SimulationSpec) -> Result<(Actor, Partner)> {
                 Error::invalid("mass_ratio", "is missing").mend(format!("add it: {why}"))
             })?;
             check_range("mass_ratio", ratio, &MASS_RATIO, why)?;
-            Ok((
-                actor(spec, 0, 1.0)?,
-                Partner::Body(Box::new(actor(spec, 1, ratio)?)),
-            ))
+            Ok((actor(spec, 0, 1.0)?, Partner::Body(Box::new(actor(spec, 1, ratio)?))))
         }
         (true, false) | (false, true) => {
             if spec.mass_ratio.is_some() {
-                return Err(
-                    Error::invalid("mass_ratio", "is out of place: one body is static")
-                        .mend("remove `mass_ratio`"),
-                );
+                return Err(Error::invalid("mass_ratio", "is out of place: one body is static")
+                    .mend("remove `mass_ratio`"));
             }
             let (moving, standing) = if is_static(first) { (1, 0) } else { (0, 1) };
-            Ok((
-                actor(spec, moving, 1.0)?,
-                Partner::Plane(plane(spec, standing)?),
-            ))
+            Ok((actor(spec, moving, 1.0)?, Partner::Plane(plane(spec, standing)?)))
         }
     }
 }
@@ -172,24 +151,13 @@ fn actor(spec: &SimulationSpec, index: usize, mass: f64) -> Result<Actor> {
         velocity_in_world: rate(&format!("{place}.velocity"), velocity, "m/s")?,
         ..spinning
     };
-    Ok(Actor {
-        index,
-        name: body.name.clone(),
-        shape,
-        before,
-        instants: instants(spec, index)?,
-    })
+    Ok(Actor { index, name: body.name.clone(), shape, before, instants: instants(spec, index)? })
 }
 
 /// A velocity or an angular velocity.
 fn rate(place: &str, value: [f64; 3], unit: &str) -> Result<Vector3<f64>> {
     for (axis, &component) in value.iter().enumerate() {
-        check_range(
-            &format!("{place}[{axis}]"),
-            component,
-            &RATE,
-            &format!("give it in {unit}"),
-        )?;
+        check_range(&format!("{place}[{axis}]"), component, &RATE, &format!("give it in {unit}"))?;
     }
     Ok(Vector3::from(value))
 }
@@ -211,12 +179,7 @@ fn plane(spec: &SimulationSpec, index: usize) -> Result<StaticPlane> {
     let why = "a static body is the plane normal·p = height";
     let normal = needed(&place, "normal", body.normal, why)?;
     let height = needed(&place, "height", body.height, why)?;
-    check_range(
-        &format!("{place}.height"),
-        height,
-        &POSITION_M,
-        "give the height in m",
-    )?;
+    check_range(&format!("{place}.height"), height, &POSITION_M, "give the height in m")?;
     Ok(StaticPlane {
         name: body.name.clone(),
         normal_in_world: unit_vector(&format!("{place}.normal"), normal)?,

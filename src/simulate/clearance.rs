@@ -36,10 +36,7 @@ fn overlap_m(setup: &Setup, motions: &[Motion], time_s: f64) -> f64 {
         Partner::Plane(plane) => {
             let height_m = |point: &Vector3<f64>| plane.normal_in_world.dot(point) - plane.height_m;
             let (points, rim_m) = outermost(&setup.a.shape, &states[0]);
-            points
-                .iter()
-                .map(|point| rim_m - height_m(point))
-                .fold(f64::MIN, f64::max)
+            points.iter().map(|point| rim_m - height_m(point)).fold(f64::MIN, f64::max)
         }
         Partner::Body(b) => {
             let of_a = (&setup.a.shape, &states[0]);
@@ -62,10 +59,7 @@ fn depth_within_m(
             Shape::Sphere { radius } => radius - in_host.norm(),
         }
     };
-    points
-        .iter()
-        .map(|point| rim_m + depth_m(point))
-        .fold(f64::MIN, f64::max)
+    points.iter().map(|point| rim_m + depth_m(point)).fold(f64::MIN, f64::max)
 }
 
 /// The points that span a body, in the world, and how far its matter reaches around each, in m:

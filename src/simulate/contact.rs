@@ -42,27 +42,18 @@ pub(super) fn check_strike(spec: &CollisionSpec, a: &Actor, partner: &Partner) -
     }
     let strength = strength(spec)?;
     let normal_in_world = normal(spec, partner, &strength)?;
-    let contact = Contact {
-        point_in_world,
-        normal_in_world,
-    };
+    let contact = Contact { point_in_world, normal_in_world };
     let other = partner.body().map(|actor| &actor.before);
     check_approach(&contact, &a.before, other)?;
     let (impulse_on_a, restitution) = match strength {
-        Strength::Restitution(restitution) => (
-            contact.impulse_from_restitution(&a.before, other, restitution),
-            restitution,
-        ),
-        Strength::Impulse(impulse) => (
-            impulse,
-            restitution_of(&contact, &a.before, other, &impulse)?,
-        ),
+        Strength::Restitution(restitution) => {
+            (contact.impulse_from_restitution(&a.before, other, restitution), restitution)
+        }
+        Strength::Impulse(impulse) => {
+            (impulse, restitution_of(&contact, &a.before, other, &impulse)?)
+        }
     };
-    Ok(Strike {
-        contact,
-        impulse_on_a,
-        restitution,
-    })
+    Ok(Strike { contact, impulse_on_a, restitution })
 }
 
 fn check_on_plane(partner: &Partner, point_in_world: &Vector3<f64>) -> Result<()> {
@@ -75,12 +66,8 @@ fn check_on_plane(partner: &Partner, point_in_world: &Vector3<f64>) -> Result<()
     }
     let foot = point_in_world - off_m * plane.normal_in_world.into_inner();
     let problem = format!("is {:.6} m off the plane `{}`", off_m.abs(), plane.name);
-    Err(
-        Error::invalid("collision.contact_point", problem).mend(format!(
-            "the nearest point of the plane is {}",
-            shown(&foot)
-        )),
-    )
+    Err(Error::invalid("collision.contact_point", problem)
+        .mend(format!("the nearest point of the plane is {}", shown(&foot))))
 }
 
 fn check_on_surface(actor: &Actor, point_in_world: &Vector3<f64>) -> Result<()> {
@@ -94,12 +81,10 @@ fn check_on_surface(actor: &Actor, point_in_world: &Vector3<f64>) -> Result<()> 
     }
     let nearest_in_world = body.position_in_world + body.world_from_body.transform_vector(&nearest);
     let problem = format!("is {off_m:.4} m off the surface of `{}`", actor.name);
-    Err(
-        Error::invalid("collision.contact_point", problem).mend(format!(
-            "move the point or the body; the nearest point of its surface is {}",
-            shown(&nearest_in_world)
-        )),
-    )
+    Err(Error::invalid("collision.contact_point", problem).mend(format!(
+        "move the point or the body; the nearest point of its surface is {}",
+        shown(&nearest_in_world)
+    )))
 }
 
 fn nearest_surface_point(shape: &Shape, point_in_body: &Vector3<f64>) -> Vector3<f64> {
@@ -127,20 +112,15 @@ fn strength(spec: &CollisionSpec) -> Result<Strength> {
         (Some(restitution), None) if (0.0..=1.0).contains(&restitution) => {
             Ok(Strength::Restitution(restitution))
         }
-        (Some(restitution), None) => Err(Error::invalid(
-            "collision.restitution",
-            format!("is {restitution}"),
-        )
-        .mend("give a number from 0 (no bounce) to 1 (no loss of energy)")),
+        (Some(restitution), None) => {
+            Err(Error::invalid("collision.restitution", format!("is {restitution}"))
+                .mend("give a number from 0 (no bounce) to 1 (no loss of energy)"))
+        }
         (None, Some(impulse)) => Ok(Strength::Impulse(Vector3::from(impulse))),
-        (None, None) => Err(
-            Error::invalid("collision", "has neither `restitution` nor `impulse`")
-                .mend("give one of them"),
-        ),
-        (Some(_), Some(_)) => Err(
-            Error::invalid("collision", "has `restitution` and `impulse`")
-                .mend("keep one of them: the other follows"),
-        ),
+        (None, None) => Err(Error::invalid("collision", "has neither `restitution` nor `impulse`")
+            .mend("give one of them")),
+        (Some(_), Some(_)) => Err(Error::invalid("collision", "has `restitution` and `impulse`")
+            .mend("keep one of them: the other follows")),
     }
 }
 
@@ -152,24 +132,14 @@ fn normal(
     let is_there = spec.normal.is_some();
     match (partner, strength) {
         (Partner::Plane(plane), _) => {
-            refuse(
-                "collision",
-                "normal",
-                is_there,
-                "the static body has its own",
-            )?;
+            refuse("collision", "normal", is_there, "the static body has its own")?;
             if let Strength::Impulse(impulse) = strength {
                 check_along_normal(impulse, &plane.normal_in_world)?;
             }
             Ok(plane.normal_in_world)
         }
         (Partner::Body(_), Strength::Impulse(impulse)) => {
-            refuse(
-                "collision",
-                "normal",
-                is_there,
-                "it is the impulse's direction",
-            )?;
+            refuse("collision", "normal", is_there, "it is the impulse's direction")?;
             UnitVector3::try_new(*impulse, 0.0).ok_or_else(|| {
                 Error::invalid("collision.impulse", "is zero").mend("give the push on a")
             })

@@ -15,22 +15,13 @@ pub(super) struct Instant {
 /// The instants at which body `index` is seen, in order.
 pub(super) fn instants(spec: &SimulationSpec, index: usize) -> Result<Vec<Instant>> {
     let own = spec.bodies[index].observations.as_ref();
-    let place = if own.is_some() {
-        format!("bodies[{index}].observations")
-    } else {
-        "observations".into()
-    };
+    let place =
+        if own.is_some() { format!("bodies[{index}].observations") } else { "observations".into() };
     let sampling = own.unwrap_or(&spec.observations);
     let instants = match sampling {
         Sampling::Times(times) => {
             check_order(&format!("{place}.times"), times)?;
-            times
-                .iter()
-                .map(|&time_s| Instant {
-                    time_s,
-                    frame: None,
-                })
-                .collect()
+            times.iter().map(|&time_s| Instant { time_s, frame: None }).collect()
         }
         Sampling::Frames(frames) => {
             check_order(&format!("{place}.frames"), frames)?;
@@ -38,10 +29,7 @@ pub(super) fn instants(spec: &SimulationSpec, index: usize) -> Result<Vec<Instan
         }
         Sampling::Regular(regular) => {
             let place = format!("{place}.regular");
-            check_count(
-                &format!("{place}.frame_count"),
-                regular.frame_count as usize,
-            )?;
+            check_count(&format!("{place}.frame_count"), regular.frame_count as usize)?;
             for (field, value) in [("interval", Some(regular.interval)), ("gap", regular.gap)] {
                 if value == Some(0) {
                     return Err(Error::invalid(format!("{place}.{field}"), "is 0")
@@ -66,12 +54,7 @@ fn fps(spec: &SimulationSpec) -> Result<f64> {
 
 fn at_frames(spec: &SimulationSpec, frames: impl Iterator<Item = f64>) -> Result<Vec<Instant>> {
     let fps = fps(spec)?;
-    Ok(frames
-        .map(|frame| Instant {
-            time_s: frame / fps,
-            frame: Some(frame),
-        })
-        .collect())
+    Ok(frames.map(|frame| Instant { time_s: frame / fps, frame: Some(frame) }).collect())
 }
 
 fn check_count(place: &str, count: usize) -> Result<()> {
@@ -101,14 +84,8 @@ fn check_sides(
     instants: &[Instant],
 ) -> Result<()> {
     let collision_s = spec.collision.time;
-    let before = instants
-        .iter()
-        .filter(|instant| instant.time_s < collision_s)
-        .count();
-    let after = instants
-        .iter()
-        .filter(|instant| instant.time_s > collision_s)
-        .count();
+    let before = instants.iter().filter(|instant| instant.time_s < collision_s).count();
+    let after = instants.iter().filter(|instant| instant.time_s > collision_s).count();
     if before >= LEAST_POSES && after >= LEAST_POSES {
         return Ok(());
     }

@@ -54,12 +54,7 @@ pub fn simulate(spec: &SimulationSpec) -> Result<Simulation> {
     let exact = scene_file(spec, &setup, &motions);
     let scene_file = add_noise(exact, &spec.noise, spec.seed);
     let scene = Scene::from_file(scene_file.clone())?;
-    Ok(Simulation {
-        scene_file,
-        scene,
-        truth: truth(spec, &setup, &motions),
-        motions,
-    })
+    Ok(Simulation { scene_file, scene, truth: truth(spec, &setup, &motions), motions })
 }
 
 /// How the dynamic bodies move, a first: **J** acts on a, −**J** on b.
@@ -73,9 +68,7 @@ fn motions(spec: &SimulationSpec, setup: &Setup) -> Vec<Motion> {
             collision_time_s: spec.collision.time,
             gravity_in_world: -spec.gravity * setup.up_in_world.into_inner(),
             before: actor.before,
-            after: actor
-                .before
-                .pushed(&setup.strike.contact.point_in_world, &impulse),
+            after: actor.before.pushed(&setup.strike.contact.point_in_world, &impulse),
         })
         .collect()
 }

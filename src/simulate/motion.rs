@@ -52,10 +52,6 @@ impl Motion {
     }
 
     fn start(&self, time_s: f64) -> &RigidBody {
-        if time_s < self.collision_time_s {
-            &self.before
-        } else {
-            &self.after
-        }
+        if time_s < self.collision_time_s { &self.before } else { &self.after }
     }
 }

@@ -73,11 +73,7 @@ fn add_uniform(observation: &mut ObservationFile, fraction: f64, random: &mut Ch
     }
     if let Some(orientation) = &mut observation.orientation {
         let scaled = orientation.map(|component| component * factor());
-        let length = scaled
-            .iter()
-            .map(|component| component * component)
-            .sum::<f64>()
-            .sqrt();
+        let length = scaled.iter().map(|component| component * component).sum::<f64>().sqrt();
         *orientation = scaled.map(|component| component / length);
     }
 }

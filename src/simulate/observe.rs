@@ -18,10 +18,7 @@ pub(super) fn check_effort(setup: &Setup, motions: &[Motion]) -> Result<()> {
         .actors()
         .zip(motions)
         .flat_map(|(actor, motion)| {
-            actor
-                .instants
-                .iter()
-                .map(|instant| motion.integrated_angle_rad(instant.time_s))
+            actor.instants.iter().map(|instant| motion.integrated_angle_rad(instant.time_s))
         })
         .sum();
     if total_rad <= LARGEST_TOTAL_ANGLE_RAD {
@@ -76,11 +73,7 @@ fn dynamic_body(actor: &Actor, motion: &Motion, is_orientation_measured: bool) -
         let body = motion.at(instant.time_s);
         ObservationFile {
             frame: instant.frame,
-            time: if instant.frame.is_none() {
-                Some(instant.time_s)
-            } else {
-                None
-            },
+            time: if instant.frame.is_none() { Some(instant.time_s) } else { None },
             position: body.position_in_world.into(),
             orientation: is_orientation_measured.then(|| components(&body.world_from_body)),
         }
@@ -108,10 +101,5 @@ fn static_body(plane: &StaticPlane) -> BodyFile {
 
 /// The quaternion in the files' order: w, x, y, z.
 pub(super) fn components(world_from_body: &UnitQuaternion<f64>) -> [f64; 4] {
-    [
-        world_from_body.w,
-        world_from_body.i,
-        world_from_body.j,
-        world_from_body.k,
-    ]
+    [world_from_body.w, world_from_body.i, world_from_body.j, world_from_body.k]
 }

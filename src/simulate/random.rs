@@ -105,15 +105,8 @@ impl Piece {
         let [w, x, y, z] = [(); 4].map(|()| StandardNormal.sample(random));
         let world_from_body = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
         // The mass plays no part in how bodies touch and approach.
-        let body = RigidBody {
-            world_from_body,
-            ..RigidBody::solid(&shape, 1.0)
-        };
-        Piece {
-            shape,
-            body,
-            omega_in_world: Vector3::zeros(),
-        }
+        let body = RigidBody { world_from_body, ..RigidBody::solid(&shape, 1.0) };
+        Piece { shape, body, omega_in_world: Vector3::zeros() }
     }
 
     /// Puts a random point of a random face at `point`; returns the face's outward normal.
@@ -200,10 +193,7 @@ fn collision_in_the_air(
         );
     }
     // Whatever they drew, they shall approach each other.
-    let contact = Contact {
-        point_in_world: point,
-        normal_in_world: normal,
-    };
+    let contact = Contact { point_in_world: point, normal_in_world: normal };
     let wanted_m_s = -random.random_range(1.0..3.0);
     let change = wanted_m_s - contact.normal_velocity(&a.body, Some(&b.body));
     a.body.velocity_in_world += change / 2.0 * normal.into_inner();
@@ -219,24 +209,14 @@ fn collision_in_the_air(
     let mass_ratio = random.random_range(f64::ln(0.3)..f64::ln(4.0)).exp();
     SimulationSpec {
         mass_ratio: Some(mass_ratio),
-        ..spec(
-            name,
-            60.0,
-            90,
-            [a.into_spec("a"), b.into_spec("b")],
-            collision,
-        )
+        ..spec(name, 60.0, 90, [a.into_spec("a"), b.into_spec("b")], collision)
     }
 }
 
 /// Lets a body bounce on the floor around the middle of 80 frames at 120 fps.
 fn drop(random: &mut ChaCha8Rng, name: String, mut body: Piece) -> SimulationSpec {
     let up = Vector3::y_axis();
-    let point = Vector3::new(
-        random.random_range(-0.3..0.3),
-        0.0,
-        random.random_range(-0.3..0.3),
-    );
+    let point = Vector3::new(random.random_range(-0.3..0.3), 0.0, random.random_range(-0.3..0.3));
     body.stand_on(&point, &up);
     let spin_rad_s = random.random_range(0.5..5.0);
     body.spin(spin_rad_s * random_direction(random).into_inner());

@@ -39,11 +39,7 @@ pub struct RegularSampling {
 impl RegularSampling {
     /// Every frame of a film of `frame_count` frames.
     pub fn every_frame(frame_count: u32) -> Self {
-        RegularSampling {
-            interval: 1,
-            frame_count,
-            gap: Some(1),
-        }
+        RegularSampling { interval: 1, frame_count, gap: Some(1) }
     }
 
     /// The frame numbers, in order, for a collision at `collision_frame` (rarely a whole number).
@@ -71,15 +67,9 @@ impl RegularSampling {
 #[must_use]
 pub fn keep_frames(mut scene_file: SceneFile, frame_numbers: &[u32]) -> SceneFile {
     let is_kept = |observation: &ObservationFile| {
-        frame_numbers
-            .iter()
-            .any(|&number| observation.frame == Some(f64::from(number)))
+        frame_numbers.iter().any(|&number| observation.frame == Some(f64::from(number)))
     };
-    for observations in scene_file
-        .bodies
-        .iter_mut()
-        .filter_map(|body| body.observations.as_mut())
-    {
+    for observations in scene_file.bodies.iter_mut().filter_map(|body| body.observations.as_mut()) {
         observations.retain(is_kept);
     }
     scene_file

@@ -48,11 +48,7 @@ fn smash(folder: &Path, arguments: &[&str]) -> Run {
         std::thread::sleep(Duration::from_millis(2));
     };
     let text = |name: &str| String::from_utf8_lossy(&fs::read(stream(name)).unwrap()).into_owned();
-    let run = Run {
-        status,
-        stdout: text("stdout"),
-        stderr: text("stderr"),
-    };
+    let run = Run { status, stdout: text("stdout"), stderr: text("stderr") };
     fs::remove_file(stream("stdout")).unwrap();
     fs::remove_file(stream("stderr")).unwrap();
     run
@@ -60,24 +56,13 @@ fn smash(folder: &Path, arguments: &[&str]) -> Run {
 
 /// The message of a run that must fail in good order: exit code 1 and one error that says what.
 fn refusal(name: &str, run: &Run) -> String {
-    let Run {
-        status,
-        stdout,
-        stderr,
-    } = run;
+    let Run { status, stdout, stderr } = run;
     assert_eq!(status.code(), Some(1), "{name}: {status}: {stderr}");
     assert_eq!(stderr.matches("error: ").count(), 1, "{name}: {stderr}");
     assert!(!stderr.contains("panicked"), "{name}: {stderr}");
     assert!(stderr.contains("\n  hint: "), "{name}: no mend in {stderr}");
-    assert!(
-        stderr.len() < LONGEST_MESSAGE,
-        "{name}: {} letters",
-        stderr.len()
-    );
-    let controls = stderr
-        .chars()
-        .filter(|c| c.is_control() && *c != '\n')
-        .count();
+    assert!(stderr.len() < LONGEST_MESSAGE, "{name}: {} letters", stderr.len());
+    let controls = stderr.chars().filter(|c| c.is_control() && *c != '\n').count();
     assert_eq!(controls, 0, "{name}: control characters in {stderr:?}");
     assert_eq!(stdout, "", "{name}");
     stderr.clone()
@@ -92,9 +77,7 @@ fn folder_with(bytes: &[u8]) -> TempDir {
 
 fn names_in(folder: &TempDir) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder.path()).unwrap();
-    entries
-        .map(|entry| entry.unwrap().file_name().into())
-        .collect()
+    entries.map(|entry| entry.unwrap().file_name().into()).collect()
 }
 
 /// A good scene's text with one part of it replaced.
@@ -116,9 +99,7 @@ fn observed(observations: Value) -> Vec<u8> {
 }
 
 fn poses(count: usize, frame: impl Fn(usize) -> Value) -> Value {
-    (0..count)
-        .map(|i| json!({"frame": frame(i), "position": [i, 0, 0]}))
-        .collect()
+    (0..count).map(|i| json!({"frame": frame(i), "position": [i, 0, 0]})).collect()
 }
 
 /// Broken scenes, and words of the message that each must get.
@@ -131,8 +112,7 @@ fn broken_scenes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let resting = |orientation: &str| {
         let pose = json!({"frame": 0, "position": [0, 0, 0], "orientation": [1.0, 0.0, 0.0, 0.0]});
         let text = String::from_utf8(observed(json!([pose]))).unwrap();
-        text.replacen(turn, &format!("\"orientation\":{orientation}"), 1)
-            .into_bytes()
+        text.replacen(turn, &format!("\"orientation\":{orientation}"), 1).into_bytes()
     };
     let deep = |open: &str, close: &str| {
         let nested = format!("{}1{}", open.repeat(10_000), close.repeat(10_000));
@@ -151,74 +131,30 @@ fn broken_scenes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("cut after a brace", cut(1), "too early"),
         ("cut within a word", cut(20), "too early"),
         ("cut in the middle", cut(500), "too early"),
-        (
-            "two objects",
-            [cut(0), b"{} {}".to_vec()].concat(),
-            "follows the end",
-        ),
+        ("two objects", [cut(0), b"{} {}".to_vec()].concat(), "follows the end"),
         ("trailing comma", with(fps, "\"fps\":60,"), "isn't JSON"),
         ("comment", with(fps, "\"fps\":60 // film"), "isn't JSON"),
         ("single quotes", with(fps, "'fps':60"), "isn't JSON"),
-        (
-            "control character",
-            with("two boxes", "two\u{1}boxes"),
-            "control character",
-        ),
+        ("control character", with("two boxes", "two\u{1}boxes"), "control character"),
         ("lone surrogate", with("two boxes", "\\ud800"), "isn't JSON"),
-        (
-            "key twice",
-            with(fps, "\"fps\":60,\"fps\":30"),
-            "`fps` again",
-        ),
-        (
-            "key twice, escaped",
-            with(fps, "\"fps\":60,\"\\u0066ps\":30"),
-            "`fps` again",
-        ),
-        (
-            "key twice in source",
-            with(fps, "\"source\":{\"k\":1,\"k\":1}"),
-            "`k` again",
-        ),
+        ("key twice", with(fps, "\"fps\":60,\"fps\":30"), "`fps` again"),
+        ("key twice, escaped", with(fps, "\"fps\":60,\"\\u0066ps\":30"), "`fps` again"),
+        ("key twice in source", with(fps, "\"source\":{\"k\":1,\"k\":1}"), "`k` again"),
         // Deep and long.
         ("10,000 lists deep", deep("[", "]"), "nested deeper"),
         ("10,000 objects deep", deep("{\"k\":", "}"), "nested deeper"),
         ("a million brackets", vec![b'['; 1_000_000], "nested deeper"),
-        (
-            "millions of values",
-            with("\"name\"", &millions_of_values()),
-            "more than 5000000",
-        ),
-        (
-            "scene name of a megabyte",
-            with("two boxes", &"n".repeat(1 << 20)),
-            "1048576 letters",
-        ),
-        (
-            "body name of a megabyte",
-            with(a_name, &long_field("name")),
-            "1048576 letters",
-        ),
+        ("millions of values", with("\"name\"", &millions_of_values()), "more than 5000000"),
+        ("scene name of a megabyte", with("two boxes", &"n".repeat(1 << 20)), "1048576 letters"),
+        ("body name of a megabyte", with(a_name, &long_field("name")), "1048576 letters"),
         (
             "field name of a megabyte",
             with(fps, &format!("\"{}\":1", "f".repeat(1 << 20))),
             "unknown field",
         ),
-        (
-            "word of a megabyte",
-            with(fps, &long_field("fps")),
-            "a number",
-        ),
-        (
-            "200,000 observations",
-            observed(poses(200_000, |i| json!(i))),
-            "200000 observations",
-        ),
-        (
-            "1e6 observations",
-            observed(poses(1_000_000, |i| json!(i))),
-            "more than 5000000 values",
-        ),
+        ("word of a megabyte", with(fps, &long_field("fps")), "a number"),
+        ("200,000 observations", observed(poses(200_000, |i| json!(i))), "200000 observations"),
+        ("1e6 observations", observed(poses(1_000_000, |i| json!(i))), "more than 5000000 values"),
         (
             "number of a megabyte",
             with(fps, &format!("\"fps\":{}", "9".repeat(1 << 20))),
@@ -229,86 +165,39 @@ fn broken_scenes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("null", b"null".to_vec(), "an object"),
         ("a number", b"17".to_vec(), "an object"),
         ("no fields", b"{}".to_vec(), "`schema` is missing"),
-        (
-            "another schema",
-            with("smash.scene/1", "smash.scene/9"),
-            "smash.scene/9",
-        ),
+        ("another schema", with("smash.scene/1", "smash.scene/9"), "smash.scene/9"),
         ("text for a number", with(fps, "\"fps\":\"60\""), "a number"),
         ("text for a list", with(up, "\"up\":\"y\""), "a list of 3"),
         ("null for a list", with(up, "\"up\":null"), "a list of 3"),
         ("two coordinates", with(up, "\"up\":[0,1]"), "a list of 3"),
-        (
-            "four coordinates",
-            with(up, "\"up\":[0,1,0,0]"),
-            "a list of 3",
-        ),
-        (
-            "nested coordinates",
-            with(up, "\"up\":[[0],[1],[0]]"),
-            "a number",
-        ),
-        (
-            "misspelt field",
-            with("\"gravity\"", "\"gravty\""),
-            "did you mean `gravity`?",
-        ),
-        (
-            "unknown shape",
-            with("\"type\":\"box\"", "\"type\":\"cone\""),
-            "\"cone\"",
-        ),
+        ("four coordinates", with(up, "\"up\":[0,1,0,0]"), "a list of 3"),
+        ("nested coordinates", with(up, "\"up\":[[0],[1],[0]]"), "a number"),
+        ("misspelt field", with("\"gravity\"", "\"gravty\""), "did you mean `gravity`?"),
+        ("unknown shape", with("\"type\":\"box\"", "\"type\":\"cone\""), "\"cone\""),
         // NaN, infinities, and numbers out of hand.
         ("NaN", with(fps, "\"fps\":NaN"), "`NaN` is no JSON number"),
-        (
-            "nan",
-            with(up, "\"up\":[0,nan,0]"),
-            "`nan` is no JSON number",
-        ),
+        ("nan", with(up, "\"up\":[0,nan,0]"), "`nan` is no JSON number"),
         ("Infinity", with(fps, "\"fps\":Infinity"), "`Infinity`"),
-        (
-            "-Infinity",
-            with(up, "\"up\":[0,-Infinity,0]"),
-            "`-Infinity`",
-        ),
+        ("-Infinity", with(up, "\"up\":[0,-Infinity,0]"), "`-Infinity`"),
         ("\"NaN\"", with(fps, "\"fps\":\"NaN\""), "a number"),
         ("1e999", with(fps, "\"fps\":1e999"), "too large"),
         ("-1e999", with(up, "\"up\":[0,-1e999,0]"), "too large"),
         ("1e308 m", with(size, "\"size\":[1e308,1,1]"), "1e308"),
         ("1e308 in gravity", with("9.81", "1e308"), "1e308"),
-        (
-            "1e308 frames per second",
-            with(fps, "\"fps\":1e308"),
-            "1e308",
-        ),
-        (
-            "5e-324 frames per second",
-            with(fps, "\"fps\":5e-324"),
-            "5e-324",
-        ),
+        ("1e308 frames per second", with(fps, "\"fps\":1e308"), "1e308"),
+        ("5e-324 frames per second", with(fps, "\"fps\":5e-324"), "5e-324"),
         ("1e308 in an up", with(up, "\"up\":[0,1e308,0]"), "1e308"),
-        (
-            "1e308 in a quaternion",
-            resting("[1e308,1e308,0,0]"),
-            "1e308",
-        ),
+        ("1e308 in a quaternion", resting("[1e308,1e308,0,0]"), "1e308"),
         (
             "noise of 1e-300",
-            with(
-                fps,
-                "\"fps\":60,\"noise\":{\"position\":1e-300,\"orientation\":1}",
-            ),
+            with(fps, "\"fps\":60,\"noise\":{\"position\":1e-300,\"orientation\":1}"),
             "1e-300",
         ),
         // Geometry.
         ("zero quaternion", resting("[0,0,0,0]"), "length 0"),
         ("long quaternion", resting("[2,0,0,0]"), "length 2"),
         ("quaternion of three", resting("[1,0,0]"), "a list of 4"),
-        (
-            "negative size",
-            with(size, "\"size\":[0.1,-0.2,0.3]"),
-            "-0.2",
-        ),
+        ("negative size", with(size, "\"size\":[0.1,-0.2,0.3]"), "-0.2"),
         ("no size", with(size, "\"size\":[0,0,0]"), "0.0"),
         ("zero up", with(up, "\"up\":[0,0,0]"), "length 0"),
         ("negative gravity", with("9.81", "-9.81"), "-9.81"),
@@ -323,32 +212,12 @@ fn broken_scenes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
             "1e308",
         ),
         // Bodies and times.
-        (
-            "no bodies",
-            b"{\"schema\":\"smash.scene/1\",\"bodies\":[]}".to_vec(),
-            "is empty",
-        ),
-        (
-            "one name for two",
-            with("\"name\":\"b\"", a_name),
-            "name of its own",
-        ),
+        ("no bodies", b"{\"schema\":\"smash.scene/1\",\"bodies\":[]}".to_vec(), "is empty"),
+        ("one name for two", with("\"name\":\"b\"", a_name), "name of its own"),
         ("no observations", observed(json!([])), "0 observations"),
-        (
-            "one observation",
-            observed(poses(1, |i| json!(i))),
-            "1 observations",
-        ),
-        (
-            "all on one side",
-            observed(poses(10, |i| json!(1000 + i))),
-            "no moment",
-        ),
-        (
-            "identical times",
-            observed(poses(10, |_| json!(0))),
-            "another pose",
-        ),
+        ("one observation", observed(poses(1, |i| json!(i))), "1 observations"),
+        ("all on one side", observed(poses(10, |i| json!(1000 + i))), "no moment"),
+        ("identical times", observed(poses(10, |_| json!(0))), "another pose"),
         (
             "ten times one pose",
             observed(json!(vec![json!({"frame": 0, "position": [0, 0, 0]}); 10])),
@@ -360,21 +229,9 @@ fn broken_scenes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
             observed(json!([{"frame": 0, "time": 0, "position": [0, 0, 0]}])),
             "both",
         ),
-        (
-            "neither frame nor time",
-            observed(json!([{"position": [0, 0, 0]}])),
-            "neither",
-        ),
-        (
-            "no position",
-            observed(json!([{"frame": 0}])),
-            "`position` is missing",
-        ),
-        (
-            "aeons",
-            observed(poses(10, |i| json!(i as f64 * 1e10))),
-            "more than a day",
-        ),
+        ("neither frame nor time", observed(json!([{"position": [0, 0, 0]}])), "neither"),
+        ("no position", observed(json!([{"frame": 0}])), "`position` is missing"),
+        ("aeons", observed(poses(10, |i| json!(i as f64 * 1e10))), "more than a day"),
     ]
 }
 
@@ -383,10 +240,7 @@ fn long_field(name: &str) -> String {
 }
 
 fn millions_of_values() -> String {
-    format!(
-        "\"source\":{{\"k\":[{}0]}},\"name\"",
-        "0,".repeat(6_000_000)
-    )
+    format!("\"source\":{{\"k\":[{}0]}},\"name\"", "0,".repeat(6_000_000))
 }
 
 #[test]
@@ -395,24 +249,11 @@ fn broken_scenes_get_one_clear_message_and_no_output() {
     assert!(scenes.len() >= 60, "{} scenes", scenes.len());
     for (name, bytes, words) in scenes {
         let folder = folder_with(&bytes);
-        let run = smash(
-            folder.path(),
-            &["reconstruct", "scene.json", "-o", "result.json"],
-        );
+        let run = smash(folder.path(), &["reconstruct", "scene.json", "-o", "result.json"]);
         let message = refusal(name, &run);
-        assert!(
-            message.contains("error: scene.json: "),
-            "{name}: no file in {message}"
-        );
-        assert!(
-            message.contains(words),
-            "{name}: {words:?} isn't in {message}"
-        );
-        assert_eq!(
-            names_in(&folder),
-            [Path::new("scene.json")],
-            "{name}: something was left"
-        );
+        assert!(message.contains("error: scene.json: "), "{name}: no file in {message}");
+        assert!(message.contains(words), "{name}: {words:?} isn't in {message}");
+        assert_eq!(names_in(&folder), [Path::new("scene.json")], "{name}: something was left");
     }
 }
 
@@ -420,10 +261,7 @@ fn broken_scenes_get_one_clear_message_and_no_output() {
 #[test]
 fn absurd_scenes_end_in_a_result_or_a_message() {
     let still = |scene: &mut Value, body: usize| {
-        for pose in scene["bodies"][body]["observations"]
-            .as_array_mut()
-            .unwrap()
-        {
+        for pose in scene["bodies"][body]["observations"].as_array_mut().unwrap() {
             pose["position"] = json!([0, 0, 0]);
             pose["orientation"] = json!([1, 0, 0, 0]);
         }
@@ -436,41 +274,25 @@ fn absurd_scenes_end_in_a_result_or_a_message() {
         }),
         ("one at rest in the air", &|s| still(s, 1)),
         ("the world's ends", &|s| {
-            for (index, pose) in s["bodies"][0]["observations"]
-                .as_array_mut()
-                .unwrap()
-                .iter_mut()
-                .enumerate()
+            for (index, pose) in
+                s["bodies"][0]["observations"].as_array_mut().unwrap().iter_mut().enumerate()
             {
                 pose["position"] = json!([if index % 2 == 0 { 1e6 } else { -1e6 }, 1e6, -1e6]);
             }
         }),
-        ("grains", &|s| {
-            s["bodies"][0]["shape"]["size"] = json!([1e-6, 1e-6, 1e-6])
-        }),
-        ("a needle of a mountain", &|s| {
-            s["bodies"][0]["shape"]["size"] = json!([1e-6, 1e4, 1e-6])
-        }),
+        ("grains", &|s| s["bodies"][0]["shape"]["size"] = json!([1e-6, 1e-6, 1e-6])),
+        ("a needle of a mountain", &|s| s["bodies"][0]["shape"]["size"] = json!([1e-6, 1e4, 1e-6])),
         ("ten million frames per second", &|s| s["fps"] = json!(1e7)),
-        ("a frame in a quarter of an hour", &|s| {
-            s["fps"] = json!(1e-3)
-        }),
+        ("a frame in a quarter of an hour", &|s| s["fps"] = json!(1e-3)),
         ("gravity of a star", &|s| s["gravity"] = json!(1e5)),
     ];
     for (name, edit) in edits {
         let mut scene = two_boxes();
         edit(&mut scene);
         let folder = folder_with(scene.to_string().as_bytes());
-        let run = smash(
-            folder.path(),
-            &["reconstruct", "scene.json", "-o", "result.json"],
-        );
+        let run = smash(folder.path(), &["reconstruct", "scene.json", "-o", "result.json"]);
         let stderr = &run.stderr;
-        assert!(
-            matches!(run.status.code(), Some(0 | 1)),
-            "{name}: {}: {stderr}",
-            run.status
-        );
+        assert!(matches!(run.status.code(), Some(0 | 1)), "{name}: {}: {stderr}", run.status);
         assert!(!stderr.contains("panicked"), "{name}: {stderr}");
         let is_written = folder.path().join("result.json").exists();
         assert_eq!(is_written, run.status.success(), "{name}: {stderr}");
@@ -484,27 +306,18 @@ fn unreadable_inputs_are_named() {
     for (name, words) in [("nothing.json", "no such file"), ("folder", "directory")] {
         let run = smash(folder.path(), &["reconstruct", name, "-o", "result.json"]);
         let message = refusal(name, &run);
-        assert!(
-            message.contains(name) && message.contains(words),
-            "{message}"
-        );
+        assert!(message.contains(name) && message.contains(words), "{message}");
     }
     let secret = folder.path().join("secret.json");
     fs::write(&secret, two_boxes().to_string()).unwrap();
     fs::set_permissions(&secret, fs::Permissions::from_mode(0o000)).unwrap();
     // Root may read everything: then there is nothing to test.
     if File::open(&secret).is_err() {
-        let run = smash(
-            folder.path(),
-            &["reconstruct", "secret.json", "-o", "result.json"],
-        );
+        let run = smash(folder.path(), &["reconstruct", "secret.json", "-o", "result.json"]);
         assert!(refusal("unreadable", &run).contains("permission denied"));
     }
     // An endless file is cut at the limit.
-    let run = smash(
-        folder.path(),
-        &["reconstruct", "/dev/zero", "-o", "result.json"],
-    );
+    let run = smash(folder.path(), &["reconstruct", "/dev/zero", "-o", "result.json"]);
     assert!(refusal("endless", &run).contains("larger than"));
 }
 
@@ -519,10 +332,7 @@ fn outputs_that_cannot_be_written_are_named() {
     ] {
         let run = smash(folder.path(), &["reconstruct", "scene.json", "-o", output]);
         let message = refusal(output, &run);
-        assert!(
-            message.contains(output) && message.contains(words),
-            "{message}"
-        );
+        assert!(message.contains(output) && message.contains(words), "{message}");
     }
 }
 
@@ -530,10 +340,7 @@ fn outputs_that_cannot_be_written_are_named() {
 #[test]
 fn a_closed_pipe_is_an_error_and_no_panic() {
     let folder = folder_with(two_boxes().to_string().as_bytes());
-    for arguments in [
-        &["reconstruct", "scene.json", "-o", "-"][..],
-        &["schema", "scene"],
-    ] {
+    for arguments in [&["reconstruct", "scene.json", "-o", "-"][..], &["schema", "scene"]] {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let output = Command::new(env!("CARGO_BIN_EXE_smash"))
@@ -543,16 +350,8 @@ fn a_closed_pipe_is_an_error_and_no_panic() {
             .output()
             .unwrap();
         let stderr = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(
-            output.status.code(),
-            Some(1),
-            "{arguments:?}: {}: {stderr}",
-            output.status
-        );
-        assert!(
-            stderr.contains("(standard output)") && !stderr.contains("panicked"),
-            "{stderr}"
-        );
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {}: {stderr}", output.status);
+        assert!(stderr.contains("(standard output)") && !stderr.contains("panicked"), "{stderr}");
     }
 }
 
@@ -562,12 +361,6 @@ fn a_failed_run_leaves_the_old_output() {
     let folder = folder_with(b"{}");
     let old = folder.path().join("result.json");
     fs::write(&old, "old").unwrap();
-    refusal(
-        "broken",
-        &smash(
-            folder.path(),
-            &["reconstruct", "scene.json", "-o", "result.json"],
-        ),
-    );
+    refusal("broken", &smash(folder.path(), &["reconstruct", "scene.json", "-o", "result.json"]));
     assert_eq!(fs::read_to_string(old).unwrap(), "old");
 }

@@ -42,10 +42,7 @@ fn encounters() -> impl Iterator<Item = (Contact, RigidBody, RigidBody, f64)> {
 
 fn collide(contact: &Contact, a: &RigidBody, b: &RigidBody, c: f64) -> (RigidBody, RigidBody) {
     let impulse = contact.impulse_from_restitution(a, Some(b), c);
-    (
-        a.pushed(&contact.point_in_world, &impulse),
-        b.pushed(&contact.point_in_world, &-impulse),
-    )
+    (a.pushed(&contact.point_in_world, &impulse), b.pushed(&contact.point_in_world, &-impulse))
 }
 
 #[test]
@@ -69,34 +66,22 @@ fn what_one_body_gains_the_other_loses() {
         };
         let gained = momentum(&a_after, &b_after) - momentum(&a, &b);
         assert!(gained.norm() < ROUNDING * (a.mass + b.mass) * 5.0);
-        for about in [
-            Vector3::zeros(),
-            contact.point_in_world,
-            Vector3::new(30.0, -70.0, 20.0),
-        ] {
+        for about in [Vector3::zeros(), contact.point_in_world, Vector3::new(30.0, -70.0, 20.0)] {
             let angular = |one: &RigidBody, other: &RigidBody| {
                 one.angular_momentum_about(&about) + other.angular_momentum_about(&about)
             };
             let scale = a.angular_momentum_about(&about).norm() + (a.mass + b.mass) * 5.0;
             let gained = angular(&a_after, &b_after) - angular(&a, &b);
-            assert!(
-                gained.norm() < ROUNDING * scale * 10.0,
-                "{gained} about {about}"
-            );
+            assert!(gained.norm() < ROUNDING * scale * 10.0, "{gained} about {about}");
         }
-        let without_torque = RigidBody {
-            angular_momentum_in_world: b.angular_momentum_in_world,
-            ..b_after
-        };
+        let without_torque =
+            RigidBody { angular_momentum_in_world: b.angular_momentum_in_world, ..b_after };
         let about = contact.point_in_world;
         let of_b = |body: &RigidBody| body.angular_momentum_about(&about);
         let broken = (of_b(&without_torque) - of_b(&b_after)).norm() / of_b(&b).norm();
         broken_without_torque += u32::from(broken > 0.01);
     }
-    assert!(
-        broken_without_torque > 100,
-        "{broken_without_torque} of 200"
-    );
+    assert!(broken_without_torque > 100, "{broken_without_torque} of 200");
 }
 
 /// Energy lost = (1 − c²) times what the approach had: none at c = 1, never a gain.
@@ -140,10 +125,7 @@ fn balls_head_on_do_as_in_school() {
         ..RigidBody::solid(&Shape::Sphere { radius: 0.1 }, mass)
     };
     let (a, b) = (ball(1.0, -0.1, 2.0), ball(3.0, 0.1, 0.0));
-    let contact = Contact {
-        point_in_world: Vector3::zeros(),
-        normal_in_world: -Vector3::x_axis(),
-    };
+    let contact = Contact { point_in_world: Vector3::zeros(), normal_in_world: -Vector3::x_axis() };
     for c in [0.0, 0.5, 1.0] {
         let (a_after, b_after) = collide(&contact, &a, &b, c);
         assert!((a_after.velocity_in_world.x - (1.0 - 3.0 * c) / 2.0).abs() < ROUNDING);

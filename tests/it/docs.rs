@@ -29,10 +29,7 @@ struct Document {
 impl Document {
     fn read(path: &Path) -> Document {
         let text = fs::read_to_string(path).unwrap();
-        let mut document = Document {
-            name: path.display().to_string(),
-            ..Document::default()
-        };
+        let mut document = Document { name: path.display().to_string(), ..Document::default() };
         let mut block: Option<(String, String)> = None;
         for event in Parser::new(&text) {
             match (event, &mut block) {
@@ -70,23 +67,15 @@ impl Document {
     fn paths(&self) -> impl Iterator<Item = &str> {
         let local = |link: &&str| !link.contains(':') && !link.starts_with('#');
         let links = self.links.iter().map(String::as_str).filter(local);
-        let code = self
-            .code
-            .iter()
-            .map(String::as_str)
-            .filter(|code| looks_like_a_path(code));
-        links
-            .map(|link| link.split('#').next().unwrap_or(link))
-            .chain(code)
+        let code = self.code.iter().map(String::as_str).filter(|code| looks_like_a_path(code));
+        links.map(|link| link.split('#').next().unwrap_or(link)).chain(code)
     }
 }
 
 /// The Markdown files at the root, and those that explain a folder.
 fn documents() -> Vec<Document> {
     let folders = ["", "docs", "scenes", "tests"].map(|folder| Path::new(ROOT).join(folder));
-    let entries = folders
-        .iter()
-        .flat_map(|folder| fs::read_dir(folder).unwrap());
+    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap());
     let mut paths: Vec<PathBuf> = entries
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|e| e == "md"))
@@ -102,9 +91,7 @@ fn looks_like_a_path(code: &str) -> bool {
     if !code.chars().all(plain) || code.starts_with('/') || code.starts_with("target/") {
         return false;
     }
-    let of_source = [".rs", ".md", ".toml", ".cc", ".h", ".sh"]
-        .iter()
-        .any(|e| code.ends_with(e));
+    let of_source = [".rs", ".md", ".toml", ".cc", ".h", ".sh"].iter().any(|e| code.ends_with(e));
     match code.split_once('/') {
         None => of_source,
         Some((first, _)) => {
@@ -120,16 +107,11 @@ fn every_path_in_the_documents_exists() {
         let folder = Path::new(&document.name).parent().unwrap();
         for path in document.paths() {
             named += 1;
-            let exists = [Path::new(ROOT), folder]
-                .iter()
-                .any(|base| base.join(path).exists());
+            let exists = [Path::new(ROOT), folder].iter().any(|base| base.join(path).exists());
             assert!(exists, "{}: {path} doesn't exist", document.name);
         }
     }
-    assert!(
-        named > 50,
-        "only {named} paths found: does the search still work?"
-    );
+    assert!(named > 50, "only {named} paths found: does the search still work?");
 }
 
 #[test]
@@ -139,10 +121,7 @@ fn every_command_named_in_the_documents_exists() {
         for line in document.code.iter().chain(&document.prompts) {
             let mut words = line.split_whitespace();
             let program = words.next().unwrap_or_default();
-            if Path::new(program)
-                .file_name()
-                .is_some_and(|name| name == "smash")
-            {
+            if Path::new(program).file_name().is_some_and(|name| name == "smash") {
                 let command = words.find(|word| word.starts_with(|c: char| c.is_ascii_lowercase()));
                 names.extend(command.map(|command| (document.name.clone(), command.to_owned())));
             }
@@ -150,14 +129,8 @@ fn every_command_named_in_the_documents_exists() {
     }
     assert!(!names.is_empty());
     for (document, command) in names {
-        let help = Command::new(SMASH)
-            .args([&command, "--help"])
-            .output()
-            .unwrap();
-        assert!(
-            help.status.success(),
-            "{document}: there is no `smash {command}`"
-        );
+        let help = Command::new(SMASH).args([&command, "--help"]).output().unwrap();
+        assert!(help.status.success(), "{document}: there is no `smash {command}`");
     }
 }
 
@@ -183,11 +156,7 @@ fn every_script_in_the_documents_runs() {
                 .output()
                 .unwrap();
             let errors = String::from_utf8_lossy(&output.stderr);
-            assert!(
-                output.status.success(),
-                "{}:\n{script}\n{errors}",
-                document.name
-            );
+            assert!(output.status.success(), "{}:\n{script}\n{errors}", document.name);
         }
     }
     assert!(scripts > 0, "the README shows a session");

@@ -6,9 +6,7 @@ use smash::scene::Shape;
 
 /// A slab with three different moments: the law at its most general.
 fn slab() -> Vector3<f64> {
-    principal_inertia_per_mass(&Shape::Box {
-        size: [0.1, 0.2, 0.4],
-    })
+    principal_inertia_per_mass(&Shape::Box { size: [0.1, 0.2, 0.4] })
 }
 
 fn askew() -> UnitQuaternion<f64> {
@@ -27,10 +25,7 @@ fn k_in_world(inertia: &Vector3<f64>) -> Vector3<f64> {
 /// spin would be off by a radian and more.
 #[test]
 fn a_symmetric_top_precesses_as_its_closed_form_says() {
-    for inertia in [
-        Vector3::new(0.02, 0.02, 0.005),
-        Vector3::new(0.004, 0.004, 0.008),
-    ] {
+    for inertia in [Vector3::new(0.02, 0.02, 0.005), Vector3::new(0.004, 0.004, 0.008)] {
         let q = askew();
         let k = k_in_world(&inertia);
         let k_along_axis = q.inverse_transform_vector(&k).z;
@@ -56,9 +51,8 @@ fn a_slab_turns_the_same_with_ten_times_the_steps() {
     let duration_s = 2.0;
     // A bound of the spin, 0.01 rad a step in the library, a tenth of it here.
     let fine_steps = (k.norm() / inertia.min() * duration_s / 0.001).ceil();
-    let fine = (0..fine_steps as u32).fold(askew(), |q, _| {
-        rotate_freely(&q, &inertia, &k, duration_s / fine_steps)
-    });
+    let fine = (0..fine_steps as u32)
+        .fold(askew(), |q, _| rotate_freely(&q, &inertia, &k, duration_s / fine_steps));
     let error_rad = rotate_freely(&askew(), &inertia, &k, duration_s).angle_to(&fine);
     assert!(error_rad < 1e-9, "{error_rad:e} rad");
 }
@@ -92,12 +86,8 @@ fn a_slab_spun_about_its_middle_axis_turns_over() {
     let turns_over = |omega_in_body: Vector3<f64>| {
         let k = omega_in_body.component_mul(&inertia);
         (0..100).any(|step| {
-            let q = rotate_freely(
-                &UnitQuaternion::identity(),
-                &inertia,
-                &k,
-                0.05 * f64::from(step),
-            );
+            let q =
+                rotate_freely(&UnitQuaternion::identity(), &inertia, &k, 0.05 * f64::from(step));
             let axis = omega_in_body.map(|w| if w.abs() > 1.0 { 1.0 } else { 0.0 });
             q.transform_vector(&axis).dot(&axis) < -0.9
         })

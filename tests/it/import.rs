@@ -20,13 +20,7 @@ fn options() -> ImportOptions {
 }
 
 fn import(text: &str, options: &ImportOptions) -> Result<SceneFile> {
-    import_csv(
-        &[Table {
-            file: "poses.csv",
-            text,
-        }],
-        options,
-    )
+    import_csv(&[Table { file: "poses.csv", text }], options)
 }
 
 /// Lengths of a table in cm become m: positions, shapes and the plane.
@@ -48,24 +42,12 @@ fn one_body_in_centimetres() {
 /// The same poses as rows of bodies, as columns of bodies, and as a file for each body.
 #[test]
 fn three_layouts_give_the_same_scene() {
-    let shapes = ["a", "b"]
-        .map(|name| (name.to_owned(), Shape::Sphere { radius: 5.0 }))
-        .to_vec();
-    let options = ImportOptions {
-        shapes,
-        plane: None,
-        ..options()
-    };
+    let shapes = ["a", "b"].map(|name| (name.to_owned(), Shape::Sphere { radius: 5.0 })).to_vec();
+    let options = ImportOptions { shapes, plane: None, ..options() };
     let long = "time,body,x,y,z\n0,a,1,2,3\n0,b,4,5,6\n0.1,a,1,2,4\n0.1,b,4,5,7\n0.2,a,1,2,5\n";
     let wide = "time,a_x,a_y,a_z,b_x,b_y,b_z\n0,1,2,3,4,5,6\n0.1,1,2,4,4,5,7\n0.2,1,2,5,,,\n";
-    let a = Table {
-        file: "folder/a.csv",
-        text: "time,x,y,z\n0,1,2,3\n0.1,1,2,4\n0.2,1,2,5\n",
-    };
-    let b = Table {
-        file: "folder/b.csv",
-        text: "Time , X, Y, Z\r\n0,4,5,6\r\n0.1,4,5,7\r\n",
-    };
+    let a = Table { file: "folder/a.csv", text: "time,x,y,z\n0,1,2,3\n0.1,1,2,4\n0.2,1,2,5\n" };
+    let b = Table { file: "folder/b.csv", text: "Time , X, Y, Z\r\n0,4,5,6\r\n0.1,4,5,7\r\n" };
     let from_long = import(long, &options).unwrap();
     assert_eq!(import(wide, &options).unwrap(), from_long);
     assert_eq!(import_csv(&[a, b], &options).unwrap(), from_long);
@@ -76,98 +58,39 @@ fn three_layouts_give_the_same_scene() {
 fn unnamed_quaternions_take_the_stated_order() {
     let text = "time,x,y,z,q0,q1,q2,q3\n0,0,0,0,0.1,0.2,0.3,0.4\n";
     let orientation = |order| {
-        let file = import(
-            text,
-            &ImportOptions {
-                quaternion: Some(order),
-                ..options()
-            },
-        )
-        .unwrap();
+        let file = import(text, &ImportOptions { quaternion: Some(order), ..options() }).unwrap();
         file.bodies[0].observations.as_ref().unwrap()[0].orientation
     };
-    assert_eq!(
-        orientation(QuaternionOrder::Wxyz),
-        Some([0.1, 0.2, 0.3, 0.4])
-    );
-    assert_eq!(
-        orientation(QuaternionOrder::Xyzw),
-        Some([0.4, 0.1, 0.2, 0.3])
-    );
+    assert_eq!(orientation(QuaternionOrder::Wxyz), Some([0.1, 0.2, 0.3, 0.4]));
+    assert_eq!(orientation(QuaternionOrder::Xyzw), Some([0.4, 0.1, 0.2, 0.3]));
 }
 
 #[test]
 fn what_a_table_does_not_say_is_asked_for() {
     let cases = [
-        (
-            "time,x,y,z,q0,q1,q2,q3\n0,0,0,0,1,0,0,0\n",
-            "header",
-            "--quaternion wxyz",
-        ),
+        ("time,x,y,z,q0,q1,q2,q3\n0,0,0,0,1,0,0,0\n", "header", "--quaternion wxyz"),
         ("x,y,z\n0,0,0\n", "header", "neither `frame` nor `time`"),
-        (
-            "frame,time,x,y,z\n0,0,0,0,0\n",
-            "header",
-            "both `frame` and `time`",
-        ),
+        ("frame,time,x,y,z\n0,0,0,0,0\n", "header", "both `frame` and `time`"),
         ("time,x,y\n0,0,0\n", "header", "lacks coordinates"),
-        (
-            "time,x,y,z,qw,qx\n0,0,0,0,1,0\n",
-            "header",
-            "incomplete quaternion",
-        ),
-        (
-            "time,x,y,z,bdoy\n0,0,0,0,a\n",
-            "header",
-            "did you mean `body`?",
-        ),
+        ("time,x,y,z,qw,qx\n0,0,0,0,1,0\n", "header", "incomplete quaternion"),
+        ("time,x,y,z,bdoy\n0,0,0,0,a\n", "header", "did you mean `body`?"),
         ("time,x,y,z,x\n0,0,0,0,0\n", "header", "`x` twice"),
-        (
-            "time,x,y,z,a_x,a_y,a_z\n0,0,0,0,0,0,0\n",
-            "header",
-            "in two ways",
-        ),
-        (
-            "time;x;y;z\n0;0;0;0\n",
-            "header",
-            "commas between the columns",
-        ),
+        ("time,x,y,z,a_x,a_y,a_z\n0,0,0,0,0,0,0\n", "header", "in two ways"),
+        ("time;x;y;z\n0;0;0;0\n", "header", "commas between the columns"),
         ("", "header", "neither `frame` nor `time`"),
-        (
-            "time,x,y,z\n0,0,0,0\n1,0,zero,0\n",
-            "line 3, column `y`",
-            "`zero` is no finite number",
-        ),
-        (
-            "time,x,y,z\n0,0,0,NaN\n",
-            "line 2, column `z`",
-            "leave empty what wasn't measured",
-        ),
+        ("time,x,y,z\n0,0,0,0\n1,0,zero,0\n", "line 3, column `y`", "`zero` is no finite number"),
+        ("time,x,y,z\n0,0,0,NaN\n", "line 2, column `z`", "leave empty what wasn't measured"),
         ("time,x,y,z\n0,0,,0\n", "line 2, column `y`", "is empty"),
-        (
-            "time,x,y,z\n,0,0,0\n",
-            "line 2, column `time`",
-            "each pose needs its time",
-        ),
-        (
-            "time,x,y,z\n0,0,0\n",
-            "line 2",
-            "has 3 cells, but the header has 4",
-        ),
+        ("time,x,y,z\n,0,0,0\n", "line 2, column `time`", "each pose needs its time"),
+        ("time,x,y,z\n0,0,0\n", "line 2", "has 3 cells, but the header has 4"),
     ];
     for (text, place, words) in cases {
         let error = import(text, &options()).unwrap_err();
         assert_eq!(error.place(), Some(place), "{error}");
-        assert!(
-            error.to_string().contains(words) && error.hint().is_some(),
-            "{error}"
-        );
+        assert!(error.to_string().contains(words) && error.hint().is_some(), "{error}");
         assert!(error.to_string().starts_with("poses.csv: "), "{error}");
     }
-    let no_fps = ImportOptions {
-        fps: None,
-        ..options()
-    };
+    let no_fps = ImportOptions { fps: None, ..options() };
     let error = import("frame,x,y,z\n0,0,0,0\n", &no_fps).unwrap_err();
     assert!(error.to_string().contains("--fps 60"), "{error}");
 }
@@ -178,18 +101,8 @@ fn bodies_and_shapes_must_match() {
     let error = import(text, &options()).unwrap_err();
     assert!(error.to_string().contains("--box b=SX,SY,SZ"), "{error}");
     let shapes = vec![("c".into(), Shape::Sphere { radius: 1.0 })];
-    let error = import(
-        text,
-        &ImportOptions {
-            shapes,
-            ..options()
-        },
-    )
-    .unwrap_err();
-    assert!(
-        error.to_string().contains("known here: `a`, `b`"),
-        "{error}"
-    );
+    let error = import(text, &ImportOptions { shapes, ..options() }).unwrap_err();
+    assert!(error.to_string().contains("known here: `a`, `b`"), "{error}");
 }
 
 #[test]
@@ -204,12 +117,7 @@ fn the_command_writes_a_scene_that_reads() {
     let scene = folder.path().join("scene.json");
     let smash = |more: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_smash"));
-        command
-            .arg("import")
-            .arg(&table)
-            .arg("-o")
-            .arg(&scene)
-            .args(more);
+        command.arg("import").arg(&table).arg("-o").arg(&scene).args(more);
         command.output().unwrap()
     };
     // The unit and up are never guessed: leaving them out is wrong usage.
@@ -225,12 +133,7 @@ fn the_command_writes_a_scene_that_reads() {
         "0",
         "--json",
     ]);
-    assert_eq!(
-        done.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&done.stderr)
-    );
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
     let summary: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
     assert_eq!(summary["bodies"][0]["observations"], 6);
     let scene = Scene::read(&scene).unwrap();

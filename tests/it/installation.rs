@@ -21,9 +21,7 @@ struct Machine {
 impl Machine {
     /// With a recent cargo, and an apt-get that only notes what it was asked.
     fn new(dependencies: &str) -> Machine {
-        let machine = Machine {
-            folder: tempfile::tempdir().unwrap(),
-        };
+        let machine = Machine { folder: tempfile::tempdir().unwrap() };
         let at = |name: &str| machine.folder.path().join(name);
         fs::create_dir(at("scripts")).unwrap();
         fs::create_dir(at("bin")).unwrap();
@@ -85,10 +83,7 @@ fn without_a_terminal_to_ask_at_nothing_is_installed() {
     let machine = Machine::new(LIST);
     let output = machine.setup(&[]);
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(
-        said.contains("missing  no-such-package: turns source into programs"),
-        "{said}"
-    );
+    assert!(said.contains("missing  no-such-package: turns source into programs"), "{said}");
     assert_stopped(&output, &["no terminal", "--yes"]);
     assert_eq!(machine.changes(), "");
 }
@@ -97,10 +92,7 @@ fn without_a_terminal_to_ask_at_nothing_is_installed() {
 fn with_yes_only_what_is_missing_is_installed() {
     let machine = Machine::new(LIST);
     let output = machine.setup(&["--yes"]);
-    assert_eq!(
-        machine.changes(),
-        "install --yes --no-install-recommends no-such-package"
-    );
+    assert_eq!(machine.changes(), "install --yes --no-install-recommends no-such-package");
     // This apt-get installs nothing, and setup looks again.
     assert_stopped(&output, &["still missing", "no-such-package"]);
 }
@@ -112,10 +104,7 @@ fn a_dry_run_tells_and_changes_nothing() {
     assert_stopped(&output, &["apt-get install no-such-package\n"]);
     assert_eq!(machine.changes(), "");
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(
-        said.contains("found    bash") && !said.contains("no-such-formatter"),
-        "{said}"
-    );
+    assert!(said.contains("found    bash") && !said.contains("no-such-formatter"), "{said}");
 }
 
 #[test]
@@ -135,10 +124,7 @@ fn lists_of_packages_that_are_absent_are_fetched_first() {
 fn a_system_without_apt_is_told_the_packages() {
     let machine = Machine::new(LIST);
     machine.remove("apt-get");
-    assert_stopped(
-        &machine.setup(&["--yes"]),
-        &["no apt-get", "no-such-package"],
-    );
+    assert_stopped(&machine.setup(&["--yes"]), &["no apt-get", "no-such-package"]);
 }
 
 #[test]
@@ -152,10 +138,7 @@ fn without_cargo_setup_says_how_to_get_rust() {
 fn a_cargo_that_is_too_old_is_told_by_its_version() {
     let machine = Machine::new(LIST);
     machine.program("cargo", "echo cargo 1.63.0");
-    assert_stopped(
-        &machine.setup(&["--yes"]),
-        &["1.63.0", env!("CARGO_PKG_RUST_VERSION")],
-    );
+    assert_stopped(&machine.setup(&["--yes"]), &["1.63.0", env!("CARGO_PKG_RUST_VERSION")]);
 }
 
 #[test]
@@ -166,28 +149,15 @@ fn an_unknown_option_is_wrong_usage() {
 
 #[test]
 fn the_doctor_and_setup_look_for_the_same_things() {
-    let doctor = Command::new(SMASH)
-        .args(["doctor", "--json"])
-        .output()
-        .unwrap();
+    let doctor = Command::new(SMASH).args(["doctor", "--json"]).output().unwrap();
     let health: serde_json::Value = serde_json::from_slice(&doctor.stdout).unwrap();
-    let setup = Command::new(Path::new(ROOT).join("setup"))
-        .arg("--dry-run")
-        .output()
-        .unwrap();
+    let setup = Command::new(Path::new(ROOT).join("setup")).arg("--dry-run").output().unwrap();
     let said = String::from_utf8_lossy(&setup.stdout);
     let dependencies = health["dependencies"].as_array().unwrap();
-    let to_build: Vec<_> = dependencies
-        .iter()
-        .filter(|d| d["work"] == "build")
-        .collect();
+    let to_build: Vec<_> = dependencies.iter().filter(|d| d["work"] == "build").collect();
     assert!(!to_build.is_empty());
     for dependency in to_build {
-        let word = if dependency["place"].is_null() {
-            "missing "
-        } else {
-            "found   "
-        };
+        let word = if dependency["place"].is_null() { "missing " } else { "found   " };
         let line = format!("{word} {}", dependency["package"].as_str().unwrap());
         assert!(said.contains(&line), "`{line}` isn't in:\n{said}");
     }
@@ -195,11 +165,7 @@ fn the_doctor_and_setup_look_for_the_same_things() {
 
 #[test]
 fn the_doctor_names_the_command_that_gets_what_is_missing() {
-    let output = Command::new(SMASH)
-        .arg("doctor")
-        .env("PATH", "/nowhere")
-        .output()
-        .unwrap();
+    let output = Command::new(SMASH).arg("doctor").env("PATH", "/nowhere").output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(said.contains("missing  g++: compiles"), "{said}");
     let last = said.lines().last().unwrap();

@@ -9,82 +9,22 @@ use crate::scenes::{box_on_floor, edited, two_boxes};
 type Rule = (fn(&mut Value), &'static str, &'static [&'static str]);
 
 const RULES: &[Rule] = &[
-    (
-        |s| s["schema"] = json!("smash.result/1"),
-        "schema",
-        &["`smash.result/1`", "smash.scene/1"],
-    ),
-    (
-        |s| s["schema"] = json!(1),
-        "schema",
-        &["is 1", "text in double quotes"],
-    ),
-    (
-        |s| remove(s, "schema"),
-        "",
-        &["`schema` is missing", "add `schema`"],
-    ),
-    (
-        |s| remove(s, "bodies"),
-        "",
-        &["`bodies` is missing", "add `bodies`"],
-    ),
-    (
-        |s| s["name"] = json!(["x"]),
-        "name",
-        &["is a list", "text in double quotes"],
-    ),
-    (
-        |s| s["name"] = json!("x".repeat(1000)),
-        "name",
-        &["1000 letters", "shorten"],
-    ),
-    (
-        |s| s["fps"] = json!(0),
-        "fps",
-        &["0.0", "frames per second"],
-    ),
-    (
-        |s| s["fps"] = json!(-60),
-        "fps",
-        &["-60.0", "frames per second"],
-    ),
-    (
-        |s| s["fps"] = json!(1e308),
-        "fps",
-        &["1e308", "frames per second"],
-    ),
+    (|s| s["schema"] = json!("smash.result/1"), "schema", &["`smash.result/1`", "smash.scene/1"]),
+    (|s| s["schema"] = json!(1), "schema", &["is 1", "text in double quotes"]),
+    (|s| remove(s, "schema"), "", &["`schema` is missing", "add `schema`"]),
+    (|s| remove(s, "bodies"), "", &["`bodies` is missing", "add `bodies`"]),
+    (|s| s["name"] = json!(["x"]), "name", &["is a list", "text in double quotes"]),
+    (|s| s["name"] = json!("x".repeat(1000)), "name", &["1000 letters", "shorten"]),
+    (|s| s["fps"] = json!(0), "fps", &["0.0", "frames per second"]),
+    (|s| s["fps"] = json!(-60), "fps", &["-60.0", "frames per second"]),
+    (|s| s["fps"] = json!(1e308), "fps", &["1e308", "frames per second"]),
     (|s| s["fps"] = json!("60"), "fps", &["\"60\"", "a number"]),
-    (
-        |s| remove(s, "fps"),
-        "bodies[0].observations[0]",
-        &["no `fps`", "add `fps`"],
-    ),
-    (
-        |s| s["gravity"] = json!(-9.81),
-        "gravity",
-        &["-9.81", "m/s²"],
-    ),
-    (
-        |s| s["gravity"] = json!(1e300),
-        "gravity",
-        &["1e300", "m/s²"],
-    ),
-    (
-        |s| s["up"] = json!([0, 2, 0]),
-        "up",
-        &["length 2", "[0.000000, 1.000000, 0.000000]"],
-    ),
-    (
-        |s| s["up"] = json!([0, 0, 0]),
-        "up",
-        &["length 0", "length 1"],
-    ),
-    (
-        |s| s["up"] = json!([0, 1]),
-        "up",
-        &["a list of 2", "a list of 3"],
-    ),
+    (|s| remove(s, "fps"), "bodies[0].observations[0]", &["no `fps`", "add `fps`"]),
+    (|s| s["gravity"] = json!(-9.81), "gravity", &["-9.81", "m/s²"]),
+    (|s| s["gravity"] = json!(1e300), "gravity", &["1e300", "m/s²"]),
+    (|s| s["up"] = json!([0, 2, 0]), "up", &["length 2", "[0.000000, 1.000000, 0.000000]"]),
+    (|s| s["up"] = json!([0, 0, 0]), "up", &["length 0", "length 1"]),
+    (|s| s["up"] = json!([0, 1]), "up", &["a list of 2", "a list of 3"]),
     (|s| s["up"] = json!("y"), "up", &["\"y\"", "a list of 3"]),
     (
         |s| s["noise"] = json!({"position": 0, "orientation": 0.1}),
@@ -96,81 +36,25 @@ const RULES: &[Rule] = &[
         "noise.orientation",
         &["-1.0", "rad"],
     ),
-    (
-        |s| s["noise"] = json!({"position": 1}),
-        "noise",
-        &["`orientation` is missing"],
-    ),
+    (|s| s["noise"] = json!({"position": 1}), "noise", &["`orientation` is missing"]),
     (
         |s| s["camera"] = json!({"position": [0, 0, 1e9]}),
         "camera.position[2]",
         &["1000000000.0", "in m"],
     ),
-    (
-        |s| s["camera"] = json!({"centre": [0, 0, 1]}),
-        "camera",
-        &["`position` is missing"],
-    ),
-    (
-        |s| s["source"] = json!("a film"),
-        "source",
-        &["\"a film\"", "an object"],
-    ),
-    (
-        |s| s["gravitiy"] = json!(9.81),
-        "gravitiy",
-        &["did you mean `gravity`?"],
-    ),
-    (
-        |s| s["bodies"] = json!([]),
-        "bodies",
-        &["is empty", "1 or 2 dynamic"],
-    ),
-    (
-        |s| s["bodies"] = json!({}),
-        "bodies",
-        &["an object", "a list"],
-    ),
-    (
-        |s| push(s, 0, "c"),
-        "bodies",
-        &["3 dynamic and 0 static", "1 or 2 dynamic"],
-    ),
-    (
-        |s| s["bodies"][1]["name"] = json!("a"),
-        "bodies[1].name",
-        &["`a`", "name of its own"],
-    ),
-    (
-        |s| s["bodies"][0]["name"] = json!(""),
-        "bodies[0].name",
-        &["empty", "such as `a`"],
-    ),
-    (
-        |s| s["bodies"][0]["name"] = json!("\u{1b}[31m"),
-        "bodies[0].name",
-        &["\\u{1b}", "letters"],
-    ),
-    (
-        |s| remove(&mut s["bodies"][0], "name"),
-        "bodies[0]",
-        &["`name` is missing"],
-    ),
-    (
-        |s| s["bodies"][0]["heigth"] = json!(1),
-        "bodies[0].heigth",
-        &["did you mean `height`?"],
-    ),
-    (
-        |s| remove(&mut s["bodies"][0], "shape"),
-        "bodies[0]",
-        &["`shape` is missing", "add `shape`"],
-    ),
-    (
-        |s| remove(&mut s["bodies"][0], "observations"),
-        "bodies[0]",
-        &["`observations` is missing"],
-    ),
+    (|s| s["camera"] = json!({"centre": [0, 0, 1]}), "camera", &["`position` is missing"]),
+    (|s| s["source"] = json!("a film"), "source", &["\"a film\"", "an object"]),
+    (|s| s["gravitiy"] = json!(9.81), "gravitiy", &["did you mean `gravity`?"]),
+    (|s| s["bodies"] = json!([]), "bodies", &["is empty", "1 or 2 dynamic"]),
+    (|s| s["bodies"] = json!({}), "bodies", &["an object", "a list"]),
+    (|s| push(s, 0, "c"), "bodies", &["3 dynamic and 0 static", "1 or 2 dynamic"]),
+    (|s| s["bodies"][1]["name"] = json!("a"), "bodies[1].name", &["`a`", "name of its own"]),
+    (|s| s["bodies"][0]["name"] = json!(""), "bodies[0].name", &["empty", "such as `a`"]),
+    (|s| s["bodies"][0]["name"] = json!("\u{1b}[31m"), "bodies[0].name", &["\\u{1b}", "letters"]),
+    (|s| remove(&mut s["bodies"][0], "name"), "bodies[0]", &["`name` is missing"]),
+    (|s| s["bodies"][0]["heigth"] = json!(1), "bodies[0].heigth", &["did you mean `height`?"]),
+    (|s| remove(&mut s["bodies"][0], "shape"), "bodies[0]", &["`shape` is missing", "add `shape`"]),
+    (|s| remove(&mut s["bodies"][0], "observations"), "bodies[0]", &["`observations` is missing"]),
     (
         |s| s["bodies"][0]["height"] = json!(1),
         "bodies[0].height",
@@ -191,11 +75,7 @@ const RULES: &[Rule] = &[
         "bodies[0].shape.size",
         &["is 1", "a list of 3"],
     ),
-    (
-        |s| s["bodies"][0]["shape"]["radius"] = json!(1),
-        "bodies[0].shape",
-        &["radius", "remove"],
-    ),
+    (|s| s["bodies"][0]["shape"]["radius"] = json!(1), "bodies[0].shape", &["radius", "remove"]),
     (
         |s| s["bodies"][0]["shape"] = json!(["box", [1, 1, 1]]),
         "bodies[0].shape",
@@ -221,21 +101,9 @@ const RULES: &[Rule] = &[
         "bodies",
         &["`b` has 0 observations", "annotate"],
     ),
-    (
-        |s| keep(s, 0..3),
-        "bodies",
-        &["`b` has 3 observations", "annotate 2 or more"],
-    ),
-    (
-        |s| apart(s),
-        "bodies",
-        &["no moment has 2 poses", "both sides"],
-    ),
-    (
-        |s| pose(s)["frmae"] = json!(1),
-        "bodies[1].observations[3].frmae",
-        &["`frame`?"],
-    ),
+    (|s| keep(s, 0..3), "bodies", &["`b` has 3 observations", "annotate 2 or more"]),
+    (|s| apart(s), "bodies", &["no moment has 2 poses", "both sides"]),
+    (|s| pose(s)["frmae"] = json!(1), "bodies[1].observations[3].frmae", &["`frame`?"]),
     (
         |s| pose(s)["orientaton"] = json!([1, 0, 0, 0]),
         "bodies[1].observations[3].orientaton",
@@ -251,31 +119,19 @@ const RULES: &[Rule] = &[
         "bodies[1].observations[3]",
         &["neither `frame` nor", "add the frame"],
     ),
-    (
-        |s| pose(s)["frame"] = json!("6"),
-        "bodies[1].observations[3].frame",
-        &["\"6\"", "a number"],
-    ),
+    (|s| pose(s)["frame"] = json!("6"), "bodies[1].observations[3].frame", &["\"6\"", "a number"]),
     (
         |s| pose(s)["frame"] = json!(1e300),
         "bodies[1].observations[3].frame",
         &["1e300", "number the frames"],
     ),
-    (
-        |s| pose(s)["frame"] = json!(1e9),
-        "bodies[1].observations",
-        &["more than a day", "fps"],
-    ),
+    (|s| pose(s)["frame"] = json!(1e9), "bodies[1].observations", &["more than a day", "fps"]),
     (
         |s| pose(s)["frame"] = json!(3),
         "bodies[1].observations[5]",
         &["[3]", "another pose", "keep the right one"],
     ),
-    (
-        |s| remove(pose(s), "position"),
-        "bodies[1].observations[3]",
-        &["`position` is missing"],
-    ),
+    (|s| remove(pose(s), "position"), "bodies[1].observations[3]", &["`position` is missing"]),
     (
         |s| pose(s)["position"] = json!(null),
         "bodies[1].observations[3].position",
@@ -324,11 +180,7 @@ const PLANE_RULES: &[Rule] = &[
         "bodies",
         &["0 dynamic and 2 static", "1 dynamic and 1"],
     ),
-    (
-        |s| s["bodies"] = json!([floor("ground")]),
-        "bodies",
-        &["0 dynamic and 1 static"],
-    ),
+    (|s| s["bodies"] = json!([floor("ground")]), "bodies", &["0 dynamic and 1 static"]),
     (|s| push(s, 0, "c"), "bodies", &["2 dynamic and 1 static"]),
     (
         |s| remove(&mut s["bodies"][1], "normal"),
@@ -345,11 +197,7 @@ const PLANE_RULES: &[Rule] = &[
         "bodies[1].normal",
         &["length 0.9", "[0.0"],
     ),
-    (
-        |s| s["bodies"][1]["height"] = json!(1e7),
-        "bodies[1].height",
-        &["10000000.0", "in m"],
-    ),
+    (|s| s["bodies"][1]["height"] = json!(1e7), "bodies[1].height", &["10000000.0", "in m"]),
     (
         |s| s["bodies"][1]["observations"] = json!([]),
         "bodies[1].observations",
@@ -392,10 +240,7 @@ fn keep(scene: &mut Value, range: std::ops::Range<usize>) {
 /// Leaves `a` the poses after the collision, and `b` those before it.
 fn apart(scene: &mut Value) {
     keep(scene, 0..5);
-    scene["bodies"][0]["observations"]
-        .as_array_mut()
-        .unwrap()
-        .drain(..5);
+    scene["bodies"][0]["observations"].as_array_mut().unwrap().drain(..5);
 }
 
 fn pose(scene: &mut Value) -> &mut Value {
@@ -412,19 +257,12 @@ fn check(scene: fn() -> Value, rules: &[Rule]) {
         let error =
             Scene::parse(&text, "broken.json").expect_err(&format!("rule {index}: {place}"));
         let message = error.to_string();
-        assert_eq!(
-            error.place().unwrap_or(""),
-            *place,
-            "rule {index}: {message}"
-        );
+        assert_eq!(error.place().unwrap_or(""), *place, "rule {index}: {message}");
         assert_eq!(error.kind(), ErrorKind::Invalid, "{message}");
         assert!(message.starts_with("broken.json: "), "{message}");
         assert!(error.hint().is_some(), "no mend: {message}");
         for word in *words {
-            assert!(
-                message.contains(word),
-                "rule {index}: {word:?} is not in: {message}"
-            );
+            assert!(message.contains(word), "rule {index}: {word:?} is not in: {message}");
         }
         assert!(message.len() < 400, "{} letters: {message}", message.len());
     }
@@ -448,27 +286,11 @@ fn scenes_in_good_order_are_accepted_without_a_warning() {
 fn json_that_does_not_parse_names_line_and_column() {
     let cases = [
         (" ", "line 1, column 1", "is empty"),
-        (
-            "{\n \"name\": NaN}",
-            "line 2, column 10",
-            "`NaN` is no JSON number",
-        ),
-        (
-            "{\"gravity\": -Infinity}",
-            "line 1, column 14",
-            "`-Infinity` is no JSON number",
-        ),
+        ("{\n \"name\": NaN}", "line 2, column 10", "`NaN` is no JSON number"),
+        ("{\"gravity\": -Infinity}", "line 1, column 14", "`-Infinity` is no JSON number"),
         ("{\"gravity\": 1e999}", "line 1, column 17", "too large"),
-        (
-            "{\"name\": \"x\",\n\"name\": \"y\"}",
-            "line 2, column 6",
-            "`name` again",
-        ),
-        (
-            "{\"source\": {\"k\": 1, \"k\": 1}}",
-            "line 1, column 23",
-            "`k` again",
-        ),
+        ("{\"name\": \"x\",\n\"name\": \"y\"}", "line 2, column 6", "`name` again"),
+        ("{\"source\": {\"k\": 1, \"k\": 1}}", "line 1, column 23", "`k` again"),
         ("{\"name\": \"x\"", "line 1, column 12", "ends too early"),
         ("{} {}", "line 1, column 4", "follows the end"),
         ("{'name': 1}", "line 1, column 2", "`'name'`"),
@@ -478,10 +300,7 @@ fn json_that_does_not_parse_names_line_and_column() {
         let error = Scene::parse(text, "broken.json").unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Parse, "{error}");
         assert_eq!(error.place(), Some(place), "{error}");
-        assert!(
-            error.to_string().contains(words) && error.hint().is_some(),
-            "{error}"
-        );
+        assert!(error.to_string().contains(words) && error.hint().is_some(), "{error}");
     }
 }
 
@@ -489,10 +308,7 @@ fn json_that_does_not_parse_names_line_and_column() {
 fn deep_nesting_is_an_error_and_no_overflow() {
     let deep = format!("{}{}", "[".repeat(1_000_000), "]".repeat(1_000_000));
     let error = Scene::parse(&deep, "deep.json").unwrap_err();
-    assert!(
-        error.to_string().contains("nested deeper than 127"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("nested deeper than 127"), "{error}");
 }
 
 #[test]
@@ -509,25 +325,18 @@ fn null_is_the_same_as_leaving_an_optional_field_out() {
 
 #[test]
 fn nearly_unit_quaternions_are_normalised() {
-    let text = edited(two_boxes(), |s| {
-        pose(s)["orientation"] = json!([1.009, 0, 0, 0])
-    })
-    .to_string();
+    let text =
+        edited(two_boxes(), |s| pose(s)["orientation"] = json!([1.009, 0, 0, 0])).to_string();
     let scene = Scene::parse(&text, "rounded.json").unwrap();
-    let length = scene.bodies()[1].observations[3]
-        .world_from_body
-        .unwrap()
-        .norm();
+    let length = scene.bodies()[1].observations[3].world_from_body.unwrap().norm();
     // One division: a few units in the last place.
     assert!((length - 1.0).abs() < 1e-15, "{length}");
 }
 
 #[test]
 fn the_static_body_may_come_first() {
-    let text = edited(box_on_floor(), |s| {
-        s["bodies"].as_array_mut().unwrap().reverse()
-    })
-    .to_string();
+    let text =
+        edited(box_on_floor(), |s| s["bodies"].as_array_mut().unwrap().reverse()).to_string();
     let scene = Scene::parse(&text, "floor first.json").unwrap();
     assert_eq!(scene.bodies()[0].name, "a");
     assert_eq!(scene.plane().map(|plane| plane.height_m), Some(-0.1));
@@ -535,13 +344,9 @@ fn the_static_body_may_come_first() {
 
 #[test]
 fn more_observations_than_the_limit_are_refused() {
-    let many: Vec<Value> = (0..100_001)
-        .map(|i| json!({"frame": i, "position": [0, 0, 0]}))
-        .collect();
-    let text = edited(two_boxes(), |s| {
-        s["bodies"][0]["observations"] = json!(many)
-    })
-    .to_string();
+    let many: Vec<Value> =
+        (0..100_001).map(|i| json!({"frame": i, "position": [0, 0, 0]})).collect();
+    let text = edited(two_boxes(), |s| s["bodies"][0]["observations"] = json!(many)).to_string();
     let error = Scene::parse(&text, "many.json").unwrap_err();
     assert!(error.to_string().contains("100001 observations"), "{error}");
 }
@@ -557,35 +362,19 @@ fn times_that_differ_by_rounding_make_no_gap() {
         }
     });
     let scene = Scene::parse(&text.to_string(), "rounded.json").unwrap();
-    assert!(
-        scene
-            .gaps()
-            .iter()
-            .all(|gap| gap.end_s - gap.start_s > 1e-3),
-        "{:?}",
-        scene.gaps()
-    );
+    assert!(scene.gaps().iter().all(|gap| gap.end_s - gap.start_s > 1e-3), "{:?}", scene.gaps());
 }
 
 #[test]
 fn a_written_scene_reads_as_the_same_scene() {
     for value in [two_boxes(), box_on_floor()] {
-        let value = edited(value, |s| {
-            s["source"] = json!({"film": "x", "take": [1, {"k": null}]})
-        });
+        let value = edited(value, |s| s["source"] = json!({"film": "x", "take": [1, {"k": null}]}));
         let scene = Scene::parse(&value.to_string(), "first.json").unwrap();
         let text = scene.to_file().to_json();
         assert_eq!(Scene::parse(&text, "second.json").unwrap(), scene);
         assert!(text.ends_with("}\n"), "no final newline");
-        let poses: usize = scene
-            .bodies()
-            .iter()
-            .map(|body| body.observations.len())
-            .sum();
-        let lines = text
-            .lines()
-            .filter(|line| line.contains("\"position\""))
-            .count();
+        let poses: usize = scene.bodies().iter().map(|body| body.observations.len()).sum();
+        let lines = text.lines().filter(|line| line.contains("\"position\"")).count();
         assert_eq!(lines, poses, "one observation a line");
     }
 }

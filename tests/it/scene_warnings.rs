@@ -15,9 +15,7 @@ fn only_warning(value: &Value) -> String {
 }
 
 fn poses(scene: &mut Value, body: usize) -> &mut Vec<Value> {
-    scene["bodies"][body]["observations"]
-        .as_array_mut()
-        .unwrap()
+    scene["bodies"][body]["observations"].as_array_mut().unwrap()
 }
 
 /// Multiplies what is given of positions and sizes.
@@ -25,11 +23,7 @@ fn scale(scene: &mut Value, positions: f64, sizes: f64) {
     let scaled = |value: &mut Value, factor: f64| *value = json!(value.as_f64().unwrap() * factor);
     for body in scene["bodies"].as_array_mut().unwrap() {
         for pose in body["observations"].as_array_mut().unwrap() {
-            pose["position"]
-                .as_array_mut()
-                .unwrap()
-                .iter_mut()
-                .for_each(|x| scaled(x, positions));
+            pose["position"].as_array_mut().unwrap().iter_mut().for_each(|x| scaled(x, positions));
         }
         match body["shape"]["type"].as_str() {
             Some("sphere") => scaled(&mut body["shape"]["radius"], sizes),
@@ -53,10 +47,7 @@ fn warnings_when_scaled(positions: f64, sizes: f64) -> Vec<String> {
 fn times_out_of_order_are_sorted_and_told() {
     let value = edited(two_boxes(), |s| poses(s, 0).swap(2, 3));
     let warning = only_warning(&value);
-    assert!(
-        warning.contains("body `a`") && warning.contains("[3]"),
-        "{warning}"
-    );
+    assert!(warning.contains("body `a`") && warning.contains("[3]"), "{warning}");
     let scene = Scene::parse(&value.to_string(), "odd.json").unwrap();
     let ordered = Scene::parse(&two_boxes().to_string(), "good.json").unwrap();
     assert_eq!(scene.bodies(), ordered.bodies());
@@ -75,11 +66,7 @@ fn a_repeated_pose_is_kept_once_and_told() {
     let warning = only_warning(&value);
     assert!(warning.contains("observations[5] repeats"), "{warning}");
     assert_eq!(
-        Scene::parse(&value.to_string(), "odd.json")
-            .unwrap()
-            .bodies()[1]
-            .observations
-            .len(),
+        Scene::parse(&value.to_string(), "odd.json").unwrap().bodies()[1].observations.len(),
         10
     );
 }
@@ -99,11 +86,7 @@ fn a_turn_of_nearly_half_a_turn_may_be_more() {
             pose["orientation"] = json!([half.cos(), 0.0, half.sin(), 0.0]);
         }
     });
-    assert!(
-        only_warning(&value).contains("172° or 188°"),
-        "{}",
-        only_warning(&value)
-    );
+    assert!(only_warning(&value).contains("172° or 188°"), "{}", only_warning(&value));
 }
 
 #[test]
@@ -116,10 +99,7 @@ fn a_spin_that_outruns_a_longer_step_is_told() {
         }
     });
     let warning = only_warning(&value);
-    assert!(
-        warning.contains("154° or 206°") && warning.contains("(1 such"),
-        "{warning}"
-    );
+    assert!(warning.contains("154° or 206°") && warning.contains("(1 such"), "{warning}");
 }
 
 #[test]
@@ -130,11 +110,7 @@ fn fewer_than_three_poses_on_a_side_are_told() {
     });
     // 2 before and 5 after; a later gap would have 3 or more before, and leave 3 after.
     let scene = Scene::parse(&value.to_string(), "few.json").unwrap();
-    assert_eq!(
-        scene.warnings(),
-        [],
-        "any gap counts: where the collision is isn't known yet"
-    );
+    assert_eq!(scene.warnings(), [], "any gap counts: where the collision is isn't known yet");
     let value = edited(value, |s| {
         poses(s, 0).truncate(5);
         poses(s, 1).truncate(5);
@@ -146,26 +122,16 @@ fn fewer_than_three_poses_on_a_side_are_told() {
 fn a_box_without_orientations_is_told_and_a_ball_is_not() {
     let value = edited(two_boxes(), |s| {
         for body in 0..2 {
-            poses(s, body)
-                .iter_mut()
-                .for_each(|pose| pose["orientation"] = json!(null));
+            poses(s, body).iter_mut().for_each(|pose| pose["orientation"] = json!(null));
         }
     });
     let warning = only_warning(&value);
-    assert!(
-        warning.contains("body `a`: a box with 0 orientations"),
-        "{warning}"
-    );
+    assert!(warning.contains("body `a`: a box with 0 orientations"), "{warning}");
 }
 
 #[test]
 fn lengths_in_other_units_are_told_by_their_fall() {
-    for (factor, unit) in [
-        (1000.0, "mm"),
-        (100.0, "cm"),
-        (39.37, "inches"),
-        (3.281, "feet"),
-    ] {
+    for (factor, unit) in [(1000.0, "mm"), (100.0, "cm"), (39.37, "inches"), (3.281, "feet")] {
         let warnings = warnings_when_scaled(factor, factor);
         let looks = format!("look like {unit}\n");
         assert!(
@@ -186,10 +152,7 @@ fn a_wrong_scale_of_a_few_percent_is_physics_not_a_unit() {
 #[test]
 fn sizes_in_millimetres_beside_positions_in_metres_are_told() {
     let warnings = warnings_when_scaled(1.0, 1000.0);
-    assert!(
-        warnings.len() == 2 && warnings[0].contains("size of 100 m"),
-        "{warnings:?}"
-    );
+    assert!(warnings.len() == 2 && warnings[0].contains("size of 100 m"), "{warnings:?}");
 }
 
 #[test]
@@ -205,13 +168,6 @@ fn gravity_in_centimetres_is_told() {
 fn an_up_that_points_down_is_told() {
     let value = edited(two_boxes(), |s| s["up"] = json!([0, -1, 0]));
     let scene = Scene::parse(&value.to_string(), "down.json").unwrap();
-    let texts: Vec<_> = scene
-        .warnings()
-        .iter()
-        .map(|one| one.text.as_str())
-        .collect();
-    assert!(
-        texts.len() == 2 && texts.iter().all(|one| one.contains("point down")),
-        "{texts:?}"
-    );
+    let texts: Vec<_> = scene.warnings().iter().map(|one| one.text.as_str()).collect();
+    assert!(texts.len() == 2 && texts.iter().all(|one| one.contains("point down")), "{texts:?}");
 }

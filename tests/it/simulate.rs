@@ -19,25 +19,16 @@ fn simulations() -> Vec<(SimulationSpec, Simulation)> {
         SimulationSpec::random_box_drop,
         SimulationSpec::random_ball_drop,
     ];
-    let mut specs: Vec<_> = (0..10)
-        .flat_map(|seed| kinds.map(|random| random(seed)))
-        .collect();
+    let mut specs: Vec<_> = (0..10).flat_map(|seed| kinds.map(|random| random(seed))).collect();
     for spec in &mut specs {
         // A few poses do here: the laws are tested on the motion itself.
         spec.observations = every(9, 80);
     }
-    specs
-        .into_iter()
-        .map(|spec| (spec.clone(), simulate(&spec).unwrap()))
-        .collect()
+    specs.into_iter().map(|spec| (spec.clone(), simulate(&spec).unwrap())).collect()
 }
 
 fn every(interval: u32, frame_count: u32) -> Sampling {
-    Sampling::Regular(RegularSampling {
-        interval,
-        frame_count,
-        gap: Some(interval),
-    })
+    Sampling::Regular(RegularSampling { interval, frame_count, gap: Some(interval) })
 }
 
 /// Times on both sides of a collision, in s from it.
@@ -106,18 +97,11 @@ fn energy_and_angular_momentum_stay_in_flight() {
                 body.kinetic_energy() + body.mass * spec.gravity * body.position_in_world.y
             };
             for moment_s in MOMENTS_S {
-                let start = if moment_s < 0.0 {
-                    &motion.before
-                } else {
-                    &motion.after
-                };
+                let start = if moment_s < 0.0 { &motion.before } else { &motion.after };
                 let body = motion.at(motion.collision_time_s + moment_s);
                 let scale = start.kinetic_energy() + body.kinetic_energy();
                 assert!((energy(&body) - energy(start)).abs() < EXACT * scale);
-                assert_eq!(
-                    body.angular_momentum_in_world,
-                    start.angular_momentum_in_world
-                );
+                assert_eq!(body.angular_momentum_in_world, start.angular_momentum_in_world);
 
                 let spin = start.omega_in_world();
                 let wrong = RigidBody {
@@ -128,10 +112,7 @@ fn energy_and_angular_momentum_stay_in_flight() {
             }
         }
     }
-    assert!(
-        worst_wrong > 0.01,
-        "a constant spin is off by {worst_wrong}"
-    );
+    assert!(worst_wrong > 0.01, "a constant spin is off by {worst_wrong}");
 }
 
 /// Centres fall on a parabola: seen from the collision, p = p_c + v t − ½ g t² up.
@@ -170,11 +151,7 @@ fn the_bodies_part_as_asked_and_gain_no_energy() {
             assert!((after + restitution * before).abs() < EXACT * before.abs());
 
             let energy = |pick: fn(&Motion) -> &RigidBody| -> f64 {
-                simulation
-                    .motions
-                    .iter()
-                    .map(|motion| pick(motion).kinetic_energy())
-                    .sum()
+                simulation.motions.iter().map(|motion| pick(motion).kinetic_energy()).sum()
             };
             let (before, after) = (energy(|m| &m.before), energy(|m| &m.after));
             assert!(after <= before * (1.0 + EXACT));
@@ -241,20 +218,13 @@ fn turned_spec(spec: &SimulationSpec, turn: &UnitQuaternion<f64>) -> SimulationS
 #[test]
 fn the_paper_s_sampling_leaves_a_gap_around_the_collision() {
     // "An interval of 19 frames means only four annotated poses": 45 − 2·19, 45 − 19, …
-    let sampling = |interval| RegularSampling {
-        interval,
-        frame_count: 90,
-        gap: None,
-    };
+    let sampling = |interval| RegularSampling { interval, frame_count: 90, gap: None };
     assert_eq!(sampling(19).frame_numbers(45.2), [7, 26, 64, 83]);
     assert_eq!(sampling(14).frame_numbers(44.6), [3, 17, 31, 59, 73, 87]);
     for interval in [1, 4, 9, 14, 19] {
         for collision_frame in [40.0, 42.5, 44.01, 47.99] {
             let frames = sampling(interval).frame_numbers(collision_frame);
-            let before = frames
-                .iter()
-                .filter(|&&f| f64::from(f) < collision_frame)
-                .count();
+            let before = frames.iter().filter(|&&f| f64::from(f) < collision_frame).count();
             let gap = frames[before] - frames[before - 1];
             assert_eq!(gap, 2 * interval);
             let steps = frames.windows(2).map(|pair| pair[1] - pair[0]);
@@ -276,16 +246,9 @@ fn a_scene_shows_the_motion_at_the_times_asked_for() {
     spec.observations = Sampling::Times(times.into());
     spec.bodies[1].observations = Some(Sampling::Frames(vec![1.0, 7.5, 20.0, 60.0, 88.0]));
     let simulation = simulate(&spec).unwrap();
-    let observations = |index: usize| {
-        simulation.scene_file.bodies[index]
-            .observations
-            .as_ref()
-            .unwrap()
-    };
-    let seen_times: Vec<f64> = observations(0)
-        .iter()
-        .filter_map(|seen| seen.time)
-        .collect();
+    let observations =
+        |index: usize| simulation.scene_file.bodies[index].observations.as_ref().unwrap();
+    let seen_times: Vec<f64> = observations(0).iter().filter_map(|seen| seen.time).collect();
     assert_eq!(seen_times, times);
     for seen in observations(1) {
         let body = simulation.motions[1].at(seen.frame.unwrap() / 60.0);
@@ -298,11 +261,7 @@ fn a_scene_shows_the_motion_at_the_times_asked_for() {
 fn the_seed_decides_the_noise() {
     for noise in [gaussian(), NoiseSpec::Uniform(0.05)] {
         let with_seed = |seed| {
-            let spec = SimulationSpec {
-                noise,
-                seed,
-                ..SimulationSpec::random_cuboids(5)
-            };
+            let spec = SimulationSpec { noise, seed, ..SimulationSpec::random_cuboids(5) };
             simulate(&spec).unwrap().scene_file.to_json()
         };
         assert_eq!(with_seed(1), with_seed(1));
@@ -311,10 +270,7 @@ fn the_seed_decides_the_noise() {
 }
 
 fn gaussian() -> NoiseSpec {
-    NoiseSpec::Gaussian(Noise {
-        position: 0.002,
-        orientation: 0.01,
-    })
+    NoiseSpec::Gaussian(Noise { position: 0.002, orientation: 0.01 })
 }
 
 /// The errors of many poses: (positions in m, rotation vectors in rad), coordinate by coordinate.
@@ -359,25 +315,16 @@ fn uniform_noise_scales_each_coordinate_by_up_to_its_fraction() {
     let noisy = smash::simulate::add_noise(exact.clone(), &NoiseSpec::Uniform(0.1), 7);
     let mut factors = Vec::new();
     for (true_body, body) in exact.bodies.iter().zip(&noisy.bodies) {
-        let pairs = true_body
-            .observations
-            .iter()
-            .flatten()
-            .zip(body.observations.iter().flatten());
+        let pairs = true_body.observations.iter().flatten().zip(body.observations.iter().flatten());
         for (truth, seen) in pairs {
             factors.extend((0..3).map(|axis| seen.position[axis] / truth.position[axis] - 1.0));
             let length: f64 = seen.orientation.unwrap().iter().map(|x| x * x).sum();
             assert!((length - 1.0).abs() < 1e-14, "normalised");
         }
     }
-    let (least, most) = factors
-        .iter()
-        .fold((0.0_f64, 0.0_f64), |(a, b), &x| (a.min(x), b.max(x)));
+    let (least, most) = factors.iter().fold((0.0_f64, 0.0_f64), |(a, b), &x| (a.min(x), b.max(x)));
     // 540 factors fill ± 10 % to a few parts in a hundred.
-    assert!(
-        (-0.1..-0.095).contains(&least) && (0.095..0.1).contains(&most),
-        "{least} {most}"
-    );
+    assert!((-0.1..-0.095).contains(&least) && (0.095..0.1).contains(&most), "{least} {most}");
     let spread = (factors.iter().map(|x| x * x).sum::<f64>() / factors.len() as f64).sqrt();
     // 0.1/√3, known to 2 %.
     assert!((spread / 0.057_735 - 1.0).abs() < 0.08, "{spread}");
@@ -386,26 +333,11 @@ fn uniform_noise_scales_each_coordinate_by_up_to_its_fraction() {
 
 #[test]
 fn what_the_noise_is_stands_in_the_scene() {
-    let spec = SimulationSpec {
-        noise: gaussian(),
-        ..SimulationSpec::random_balls(2)
-    };
+    let spec = SimulationSpec { noise: gaussian(), ..SimulationSpec::random_balls(2) };
     let scene_file = simulate(&spec).unwrap().scene_file;
-    assert_eq!(
-        scene_file.noise,
-        Some(Noise {
-            position: 0.002,
-            orientation: 0.01
-        })
-    );
+    assert_eq!(scene_file.noise, Some(Noise { position: 0.002, orientation: 0.01 }));
     let unmeasured = |seen: &smash::scene::ObservationFile| seen.orientation.is_none();
-    assert!(
-        scene_file
-            .bodies
-            .iter()
-            .flat_map(|b| b.observations.iter().flatten())
-            .all(unmeasured)
-    );
+    assert!(scene_file.bodies.iter().flat_map(|b| b.observations.iter().flatten()).all(unmeasured));
 }
 
 /// Random collisions are what their documentation says: touching, approaching, of stated sizes.
@@ -418,12 +350,7 @@ fn random_collisions_keep_their_promises() {
         assert!((0.3..4.0).contains(&spec.mass_ratio.unwrap()));
         assert!((0.2..0.95).contains(&spec.collision.restitution.unwrap()));
         let scene = simulate(&spec).unwrap().scene;
-        assert!(
-            scene
-                .bodies()
-                .iter()
-                .all(|body| body.observations.len() == 90)
-        );
+        assert!(scene.bodies().iter().all(|body| body.observations.len() == 90));
         assert!(scene.warnings().is_empty(), "{:?}", scene.warnings());
     }
 }
@@ -443,28 +370,16 @@ fn a_broken_specification_is_refused_with_its_place_and_a_mend() {
         ("mass_ratio", |s| s.mass_ratio = Some(-1.0)),
         ("bodies", |s| s.bodies.truncate(1)),
         ("bodies[1].name", |s| s.bodies[1].name = "a".into()),
-        ("bodies[0].normal", |s| {
-            s.bodies[0].normal = Some([0.0, 1.0, 0.0])
-        }),
+        ("bodies[0].normal", |s| s.bodies[0].normal = Some([0.0, 1.0, 0.0])),
         ("bodies[0]", |s| s.bodies[0].velocity = None),
-        ("bodies[0].orientation", |s| {
-            s.bodies[0].orientation = Some([0.0; 4])
-        }),
-        ("bodies[0].velocity[1]", |s| {
-            s.bodies[0].velocity = Some([0.0, f64::NAN, 0.0])
-        }),
+        ("bodies[0].orientation", |s| s.bodies[0].orientation = Some([0.0; 4])),
+        ("bodies[0].velocity[1]", |s| s.bodies[0].velocity = Some([0.0, f64::NAN, 0.0])),
         ("collision", let_them_part),
-        ("collision.contact_point", |s| {
-            s.collision.contact_point[0] += 0.1
-        }),
+        ("collision.contact_point", |s| s.collision.contact_point[0] += 0.1),
         ("collision.normal", |s| s.collision.normal = Some([0.0; 3])),
         ("collision", |s| s.collision.normal = None),
-        ("collision.restitution", |s| {
-            s.collision.restitution = Some(1.01)
-        }),
-        ("collision.restitution", |s| {
-            s.collision.restitution = Some(f64::NAN)
-        }),
+        ("collision.restitution", |s| s.collision.restitution = Some(1.01)),
+        ("collision.restitution", |s| s.collision.restitution = Some(f64::NAN)),
         ("collision", |s| s.collision.restitution = None),
         ("collision", |s| s.collision.impulse = Some([0.0, 1.0, 0.0])),
         ("noise.uniform", |s| s.noise = NoiseSpec::Uniform(1.0)),
@@ -494,15 +409,9 @@ fn a_broken_drop_is_refused() {
     let broken: [(&str, Change); 6] = [
         ("mass_ratio", |s| s.mass_ratio = Some(1.0)),
         ("bodies[1].shape", |s| s.bodies[1].shape = s.bodies[0].shape),
-        ("bodies[1].normal", |s| {
-            s.bodies[1].normal = Some([0.0, 2.0, 0.0])
-        }),
-        ("collision.contact_point", |s| {
-            s.bodies[1].height = Some(-0.2)
-        }),
-        ("collision.normal", |s| {
-            s.collision.normal = Some([0.0, 1.0, 0.0])
-        }),
+        ("bodies[1].normal", |s| s.bodies[1].normal = Some([0.0, 2.0, 0.0])),
+        ("collision.contact_point", |s| s.bodies[1].height = Some(-0.2)),
+        ("collision.normal", |s| s.collision.normal = Some([0.0, 1.0, 0.0])),
         ("collision.impulse", |s| {
             s.collision.restitution = None;
             s.collision.impulse = Some([0.1, 5.0, 0.0]);
@@ -524,10 +433,7 @@ fn an_endless_computation_is_refused() {
     let mut spec = SimulationSpec::random_box_drop(0);
     spec.bodies[0].angular_velocity = Some([0.0, 9e4, 0.0]);
     let error = simulate(&spec).unwrap_err();
-    assert!(
-        error.problem().contains("turn too fast for too long"),
-        "{error}"
-    );
+    assert!(error.problem().contains("turn too fast for too long"), "{error}");
 }
 
 /// The Bullet engine, which steps contacts and rotations its own way 600 000 times a second, moves

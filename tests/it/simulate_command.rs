@@ -23,9 +23,7 @@ fn smash(folder: &Path, arguments: &[&str]) -> Output {
 fn specifications() -> Vec<String> {
     let entries = fs::read_dir(SCENES).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path().display().to_string());
-    paths
-        .filter_map(|path| path.strip_suffix(".spec.json").map(str::to_owned))
-        .collect()
+    paths.filter_map(|path| path.strip_suffix(".spec.json").map(str::to_owned)).collect()
 }
 
 /// The committed scenes are what the program makes of the specifications beside them. Numbers may
@@ -37,11 +35,7 @@ fn every_scene_of_the_repository_can_be_made_again() {
     let folder = tempfile::tempdir().unwrap();
     for stem in stems {
         let made = smash(folder.path(), &[&format!("{stem}.spec.json"), "-o", "-"]);
-        assert!(
-            made.status.success(),
-            "{}",
-            String::from_utf8_lossy(&made.stderr)
-        );
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
         let made: Value = serde_json::from_slice(&made.stdout).unwrap();
         let committed = fs::read_to_string(format!("{stem}.json")).unwrap();
         assert_same(&made, &serde_json::from_str(&committed).unwrap(), &stem);
@@ -82,16 +76,10 @@ fn specifications_and_truths_keep_their_schemas() {
         assert!(!keeps(&spec), "{stem}: both strengths");
     }
     let truth_schema = published(SchemaKind::Truth);
-    for spec in [
-        SimulationSpec::random_cuboids(1),
-        SimulationSpec::random_ball_drop(1),
-    ] {
+    for spec in [SimulationSpec::random_cuboids(1), SimulationSpec::random_ball_drop(1)] {
         assert!(keeps(&serde_json::from_str(&spec.to_json()).unwrap()));
         let truth = simulate(&spec).unwrap().truth.to_json();
-        assert!(jsonschema::is_valid(
-            &truth_schema,
-            &serde_json::from_str(&truth).unwrap()
-        ));
+        assert!(jsonschema::is_valid(&truth_schema, &serde_json::from_str(&truth).unwrap()));
     }
 }
 
@@ -102,14 +90,8 @@ fn published(kind: SchemaKind) -> Value {
 /// A specification written and read again is the same one, to the last bit.
 #[test]
 fn a_specification_survives_its_file() {
-    for spec in [
-        SimulationSpec::random_cuboids(4),
-        SimulationSpec::random_ball_drop(4),
-    ] {
-        assert_eq!(
-            SimulationSpec::parse(&spec.to_json(), "spec.json").unwrap(),
-            spec
-        );
+    for spec in [SimulationSpec::random_cuboids(4), SimulationSpec::random_ball_drop(4)] {
+        assert_eq!(SimulationSpec::parse(&spec.to_json(), "spec.json").unwrap(), spec);
     }
 }
 
@@ -117,28 +99,17 @@ fn a_specification_survives_its_file() {
 fn the_command_writes_scene_and_truth_and_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let spec = format!("{SCENES}/boxes.spec.json");
-    let run = smash(
-        folder.path(),
-        &[&spec, "-o", "scene.json", "--truth", "truth.json"],
-    );
+    let run = smash(folder.path(), &[&spec, "-o", "scene.json", "--truth", "truth.json"]);
     let told = String::from_utf8(run.stdout).unwrap();
     assert!(run.status.success() && told.contains("1.8000") && told.contains("scene.json"));
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     let truth: Truth = serde_json::from_str(&read("truth.json")).unwrap();
     assert_eq!((truth.mass_ratio, truth.restitution), (Some(1.8), 0.6));
     let seeded = |seed: &str| {
-        assert!(
-            smash(folder.path(), &[&spec, "-o", "s.json", "--seed", seed])
-                .status
-                .success()
-        );
+        assert!(smash(folder.path(), &[&spec, "-o", "s.json", "--seed", seed]).status.success());
         read("s.json")
     };
-    assert_eq!(
-        seeded("1"),
-        read("scene.json"),
-        "the specification's own seed is 1"
-    );
+    assert_eq!(seeded("1"), read("scene.json"), "the specification's own seed is 1");
     assert_ne!(seeded("2"), read("scene.json"));
     let json = smash(folder.path(), &[&spec, "-o", "scene.json", "--json"]);
     assert_eq!(String::from_utf8(json.stdout).unwrap(), read("truth.json"));
@@ -149,44 +120,21 @@ fn a_mistake_is_named_with_its_file_place_and_mend() {
     let folder = tempfile::tempdir().unwrap();
     let good = fs::read_to_string(format!("{SCENES}/boxes.spec.json")).unwrap();
     for (wrong, right, expected) in [
-        (
-            "\"restitutoin\"",
-            "\"restitution\"",
-            "did you mean `restitution`?",
-        ),
+        ("\"restitutoin\"", "\"restitution\"", "did you mean `restitution`?"),
         ("\"gausian\"", "\"gaussian\"", "did you mean `gaussian`?"),
         ("\"regular\": 4, \"x\"", "\"regular\"", "observations"),
         ("\"seed\": -1", "\"seed\": 1", "seed"),
-        (
-            "\"velocity\": [0.9, 0.1]",
-            "\"velocity\": [0.9, 0.1, 0.3]",
-            "bodies[0].velocity",
-        ),
-        (
-            "\"restitution\": 1.2",
-            "\"restitution\": 0.6",
-            "from 0 (no bounce) to 1",
-        ),
-        (
-            "\"restitution\": 1e999",
-            "\"restitution\": 0.6",
-            "broken.json",
-        ),
+        ("\"velocity\": [0.9, 0.1]", "\"velocity\": [0.9, 0.1, 0.3]", "bodies[0].velocity"),
+        ("\"restitution\": 1.2", "\"restitution\": 0.6", "from 0 (no bounce) to 1"),
+        ("\"restitution\": 1e999", "\"restitution\": 0.6", "broken.json"),
     ] {
         assert!(good.contains(right), "{right}");
-        fs::write(
-            folder.path().join("broken.json"),
-            good.replace(right, wrong),
-        )
-        .unwrap();
+        fs::write(folder.path().join("broken.json"), good.replace(right, wrong)).unwrap();
         let run = smash(folder.path(), &["broken.json", "-o", "scene.json"]);
         let message = String::from_utf8(run.stderr).unwrap();
         assert_eq!(run.status.code(), Some(1), "{message}");
         assert!(message.starts_with("error: broken.json: "), "{message}");
-        assert!(
-            message.contains(expected) && message.contains("hint: "),
-            "{message}"
-        );
+        assert!(message.contains(expected) && message.contains("hint: "), "{message}");
         assert!(!folder.path().join("scene.json").exists());
     }
 }
