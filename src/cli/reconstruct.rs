@@ -99,12 +99,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => print_bytes(
-            summary::of(
-                &result,
-                &arguments.next_steps(&scene, &result),
-                output.as_ref(),
-            )
-            .as_bytes(),
+            summary::of(&result, &arguments.next_steps(&scene, &result), output.as_ref())
+                .as_bytes(),
         ),
     }
 }

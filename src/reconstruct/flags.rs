@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Fit;
+
 /// A doubt, as a word in the result file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -15,6 +17,8 @@ pub enum Flag {
     NotConverged,
     /// The bodies hardly pushed each other: the poses don't tell the mass ratio.
     MassRatioUnidentifiable,
+    /// The model misses the poses by more than their noise, or visibly where none is stated.
+    PoorFit,
 }
 
 impl Flag {
@@ -28,8 +32,9 @@ impl Flag {
             }
             Flag::NotConverged => "the last phase ended before it settled",
             Flag::MassRatioUnidentifiable => {
-                "the bodies hardly changed their velocities: the poses don't tell the mass ratio"
+                "the jumps in velocity don't stand out of the noise: the poses don't tell the mass ratio"
             }
+            Flag::PoorFit => "the model misses the poses by more than annotations scatter",
         }
     }
 
@@ -42,6 +47,29 @@ impl Flag {
             }
             Flag::NotConverged => "check for poses far off their neighbours",
             Flag::MassRatioUnidentifiable => "film a harder hit, or annotate longer flights",
+            Flag::PoorFit => {
+                "look for wrong poses or times; a dense annotation of fast spins misleads the \
+                 paper's start: try every 5th to 10th pose"
+            }
+        }
+    }
+}
+
+/// Without a stated noise: an annotator sees a pose that is 0.1 rad off, or off by a quarter of the
+/// body's shortest extent.
+const VISIBLE_ANGLE_RAD: f64 = 0.1;
+const VISIBLE_SHARE_OF_EXTENT: f64 = 0.25;
+
+/// With a stated noise: how many σ the reduced χ², 1 ± √(2/dof), may lie above 1.
+const TOLERATED_SIGMAS: f64 = 5.0;
+
+/// Whether the residuals are too large. `shortest_extent_m`: of the smaller body.
+pub(super) fn is_poor(fit: &Fit, shortest_extent_m: f64) -> bool {
+    match fit.reduced_chi2 {
+        Some(reduced) => reduced > 1.0 + TOLERATED_SIGMAS * (2.0 / fit.dof as f64).sqrt(),
+        None => {
+            fit.position_rmse > VISIBLE_SHARE_OF_EXTENT * shortest_extent_m
+                || fit.orientation_rmse.is_some_and(|angle| angle > VISIBLE_ANGLE_RAD)
         }
     }
 }

@@ -13,6 +13,7 @@ mod gravity_frame;
 mod internal;
 mod phases;
 mod progress;
+mod push;
 mod report;
 mod result;
 mod segment_search;

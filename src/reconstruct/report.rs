@@ -3,19 +3,20 @@
 use nalgebra::{UnitVector3, Vector3};
 
 use super::fit::fit;
-use super::flags::{Flag, mass_ratio_at_bound};
+use super::flags::{Flag, is_poor, mass_ratio_at_bound};
 use super::gravity_frame::{from_wxyz, to_wxyz};
 use super::internal::InternalScene;
 use super::phases::Solved;
 use super::result::{BodyResult, Estimate, RESULT_SCHEMA, Reconstruction};
-use super::{Options, SegmentCriterion};
+use super::{Options, SegmentCriterion, push};
 use crate::bridge::ffi::{PaperFlight, PaperObservation};
 use crate::rigid_body::{Contact, RigidBody};
+use crate::scene::Shape;
 use crate::{Result, Scene};
 
 const NO_STD: &str = "the paper's weighted energy has no noise model, hence no standard deviation";
 const NO_PARTNER: &str = "a single body without a plane: what it hit is not known";
-const NO_IMPULSE: &str = "the bodies hardly pushed each other";
+const NO_IMPULSE: &str = "the jumps in velocity don't stand out of the noise";
 const NO_APPROACH: &str = "the touching points had no normal velocity before";
 const NO_SPIN: &str = "too few orientations are annotated to tell the rotation";
 
@@ -23,6 +24,12 @@ const NO_SPIN: &str = "too few orientations are annotated to tell the rotation";
 struct States {
     before: RigidBody,
     after: RigidBody,
+}
+
+impl States {
+    fn jump_m_s(&self) -> f64 {
+        (self.after.velocity_in_world - self.before.velocity_in_world).norm()
+    }
 }
 
 /// The reconstruction that `solved` stands for.
@@ -35,6 +42,7 @@ pub(super) fn reconstruction(
     let states: Vec<States> =
         (0..scene.bodies().len()).map(|index| states(scene, internal, solved, index)).collect();
     let fit = fit(internal, solved, scene.noise())?;
+    let poor = is_poor(&fit, shortest_extent_m(scene));
     let impulse = world_vector(internal, solved.unknowns.impulse);
     let contact_point = world_vector(internal, solved.unknowns.contact_point);
     let normal = match scene.plane() {
@@ -43,7 +51,8 @@ pub(super) fn reconstruction(
     };
     let contact =
         normal.map(|normal| Contact { point_in_world: contact_point, normal_in_world: normal });
-    let pushed = is_pushed(internal, solved, &states, fit.position_rmse);
+    let jumps: Vec<f64> = states.iter().map(States::jump_m_s).collect();
+    let pushed = push::is_visible(internal, solved, &jumps, fit.position_rmse);
     let mass_ratio = (states.len() == 2).then(|| match pushed {
         true => estimate(solved.unknowns.mass_ratio),
         false => unknown(NO_IMPULSE),
@@ -58,7 +67,7 @@ pub(super) fn reconstruction(
             SegmentCriterion::Distance => "distance".to_string(),
             SegmentCriterion::Cost => "cost".to_string(),
         },
-        flags: flags(solved, pushed, states.len() == 2, &restitution),
+        flags: flags(solved, pushed, &states, &restitution, poor),
         mass_ratio,
         restitution,
         collision_time: estimate(internal.seconds(solved.collision_frames)),
@@ -110,21 +119,6 @@ fn collision_velocity(
     internal.frame.vector_to_world(per_frame * internal.paper.frames_per_second)
 }
 
-/// Whether the jumps in velocity moved a body by more than the fit's error while it was watched.
-fn is_pushed(
-    internal: &InternalScene,
-    solved: &Solved,
-    states: &[States],
-    position_rmse: f64,
-) -> bool {
-    states.iter().zip(&internal.paper.bodies).any(|(states, body)| {
-        let last = body.observations.last().map_or(solved.collision_frames, |o| o.time_frames);
-        let watched_s = internal.seconds(last - solved.collision_frames).max(0.0);
-        let jump = states.after.velocity_in_world - states.before.velocity_in_world;
-        jump.norm() * watched_s > position_rmse
-    })
-}
-
 fn restitution(contact: Option<Contact>, states: &[States], on_plane: bool) -> Estimate {
     if states.len() == 1 && !on_plane {
         return unknown(NO_PARTNER);
@@ -140,17 +134,27 @@ fn restitution(contact: Option<Contact>, states: &[States], on_plane: bool) -> E
     if value.is_finite() { estimate(value) } else { unknown(NO_APPROACH) }
 }
 
-fn flags(solved: &Solved, pushed: bool, two_bodies: bool, restitution: &Estimate) -> Vec<Flag> {
-    let out_of_range = restitution.value.is_some_and(|c| !(0.0..=1.0).contains(&c));
+fn flags(solved: &Solved, pushed: bool, states: &[States], c: &Estimate, poor: bool) -> Vec<Flag> {
+    let two_bodies = states.len() == 2;
+    let out_of_range = c.value.is_some_and(|c| !(0.0..=1.0).contains(&c));
     [
         (two_bodies && mass_ratio_at_bound(solved.unknowns.mass_ratio), Flag::MassRatioAtBound),
         (out_of_range, Flag::RestitutionOutOfRange),
         (!solved.converged, Flag::NotConverged),
         (two_bodies && !pushed, Flag::MassRatioUnidentifiable),
+        (poor, Flag::PoorFit),
     ]
     .into_iter()
     .filter_map(|(raised, flag)| raised.then_some(flag))
     .collect()
+}
+
+fn shortest_extent_m(scene: &Scene) -> f64 {
+    let extent = |shape: &Shape| match *shape {
+        Shape::Box { size: [x, y, z] } => x.min(y).min(z),
+        Shape::Sphere { radius } => 2.0 * radius,
+    };
+    scene.bodies().iter().map(|body| extent(&body.shape)).fold(f64::INFINITY, f64::min)
 }
 
 fn body_result(

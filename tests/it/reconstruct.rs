@@ -23,22 +23,12 @@ struct Tolerance {
 }
 
 /// Without spins nothing is approximated: what is left is where the optimiser stops.
-const EXACT: Tolerance = Tolerance {
-    ratio: 1e-8,
-    velocity: 1e-8,
-    spin: 0.0,
-    line: 1e-9,
-};
+const EXACT: Tolerance = Tolerance { ratio: 1e-8, velocity: 1e-8, spin: 0.0, line: 1e-9 };
 
 /// Euler's steps of a quarter frame turn by 0.03 rad at most for the spins here (8 rad/s at 60
 /// frames per second), and the spin found for them is off by about that share of itself squared:
 /// 1 %. Little of it reaches the rest.
-const EULER: Tolerance = Tolerance {
-    ratio: 5e-3,
-    velocity: 1e-3,
-    spin: 0.08,
-    line: 3e-3,
-};
+const EULER: Tolerance = Tolerance { ratio: 5e-3, velocity: 1e-3, spin: 0.08, line: 3e-3 };
 
 fn solved(file: &SceneFile) -> Reconstruction {
     reconstruct(&scene(file), &Options::default()).unwrap()
@@ -56,11 +46,8 @@ fn simulated(spec: &SimulationSpec) -> (SceneFile, Truth) {
 /// Seen as in the paper's section 5.1: every ninth of 90 frames, with a gap of 18.
 fn every_ninth_frame(mut spec: SimulationSpec) -> SimulationSpec {
     spec.collision.time = 0.75;
-    spec.observations = Sampling::Regular(RegularSampling {
-        interval: 9,
-        frame_count: 90,
-        gap: None,
-    });
+    spec.observations =
+        Sampling::Regular(RegularSampling { interval: 9, frame_count: 90, gap: None });
     spec
 }
 
@@ -100,35 +87,20 @@ fn assert_recovers(result: &Reconstruction, truth: &Truth, tolerance: &Tolerance
     let name = &truth.scene;
     assert_eq!(result.flags, [], "{name}");
     let time = result.collision_time.value.unwrap();
-    assert!(
-        (time - truth.collision_time).abs() < 1e-12,
-        "{name}: {time}"
-    );
+    assert!((time - truth.collision_time).abs() < 1e-12, "{name}: {time}");
     let found = result.mass_ratio.as_ref().map(|m| m.value.unwrap());
     assert_eq!(found.is_some(), truth.mass_ratio.is_some(), "{name}");
     if let (Some(found), Some(mass_ratio)) = (found, truth.mass_ratio) {
         let error = (found / mass_ratio - 1.0).abs();
-        assert!(
-            error < tolerance.ratio,
-            "{name}: mass ratio off by {error:e}"
-        );
+        assert!(error < tolerance.ratio, "{name}: mass ratio off by {error:e}");
     }
     let error = (restitution(result) - truth.restitution).abs();
-    assert!(
-        error < tolerance.ratio,
-        "{name}: restitution off by {error:e}"
-    );
+    assert!(error < tolerance.ratio, "{name}: restitution off by {error:e}");
     let error = distance(result.impulse, truth.impulse);
-    assert!(
-        error < 4.0 * tolerance.velocity,
-        "{name}: impulse off by {error:e}"
-    );
+    assert!(error < 4.0 * tolerance.velocity, "{name}: impulse off by {error:e}");
     let lever = Vector3::from(result.contact_point) - Vector3::from(truth.contact_point);
     let error = lever.cross(&Vector3::from(truth.normal)).norm();
-    assert!(
-        error < tolerance.line,
-        "{name}: contact off its line by {error:e} m"
-    );
+    assert!(error < tolerance.line, "{name}: contact off its line by {error:e} m");
     for (found, truth) in result.bodies.iter().zip(&truth.bodies) {
         assert_eq!(found.name, truth.name);
         for (found, truth) in [
@@ -136,20 +108,14 @@ fn assert_recovers(result: &Reconstruction, truth: &Truth, tolerance: &Tolerance
             (found.velocity_after, truth.velocity_after),
         ] {
             let error = distance(found, truth);
-            assert!(
-                error < tolerance.velocity,
-                "{name}: velocity off by {error:e} m/s"
-            );
+            assert!(error < tolerance.velocity, "{name}: velocity off by {error:e} m/s");
         }
         for (found, truth) in [
             (found.angular_velocity_before, truth.angular_velocity_before),
             (found.angular_velocity_after, truth.angular_velocity_after),
         ] {
             let error = found.map_or(0.0, |found| distance(found, truth));
-            assert!(
-                error <= tolerance.spin,
-                "{name}: spin off by {error:e} rad/s"
-            );
+            assert!(error <= tolerance.spin, "{name}: spin off by {error:e} rad/s");
         }
     }
 }
@@ -189,11 +155,7 @@ fn uneven_times_are_no_obstacle() {
     let a_times = [0.31, 0.42, 0.47, 0.66, 0.84, 0.88, 1.02];
     let b_times = [0.4, 0.59, 0.7, 0.8, 0.97];
     for (make, seed, tolerance) in [
-        (
-            SimulationSpec::random_balls as fn(u64) -> SimulationSpec,
-            3,
-            &EXACT,
-        ),
+        (SimulationSpec::random_balls as fn(u64) -> SimulationSpec, 3, &EXACT),
         (SimulationSpec::random_cuboids, 2, &EULER),
     ] {
         let mut spec = make(seed);
@@ -216,17 +178,12 @@ fn frames_and_times_give_the_same_numbers() {
         for seen in observations(&mut in_times) {
             seen.time = seen.frame.take().map(|frame| frame / fps);
         }
-        assert_eq!(
-            text_without_seconds(&solved(&file)),
-            text_without_seconds(&solved(&in_times))
-        );
+        assert_eq!(text_without_seconds(&solved(&file)), text_without_seconds(&solved(&in_times)));
     }
 }
 
 fn observations(file: &mut SceneFile) -> impl Iterator<Item = &mut ObservationFile> {
-    file.bodies
-        .iter_mut()
-        .flat_map(|body| body.observations.iter_mut().flatten())
+    file.bodies.iter_mut().flat_map(|body| body.observations.iter_mut().flatten())
 }
 
 /// All of a result but the one thing that differs from run to run; numbers with all their digits.
@@ -280,10 +237,7 @@ fn assert_turned(
         assert!(change.abs() < tolerance, "{name}: mass ratio by {change:e}");
     }
     let change = restitution(elsewhere) - restitution(here);
-    assert!(
-        change.abs() < tolerance,
-        "{name}: restitution by {change:e}"
-    );
+    assert!(change.abs() < tolerance, "{name}: restitution by {change:e}");
     let mut pairs = vec![(here.impulse, elsewhere.impulse)];
     for (here, elsewhere) in here.bodies.iter().zip(&elsewhere.bodies) {
         pairs.push((here.velocity_before, elsewhere.velocity_before));
@@ -297,10 +251,7 @@ fn assert_turned(
     for (here, elsewhere) in pairs {
         let change = distance(turned(turn, here), elsewhere);
         let allowed = tolerance * (1.0 + Vector3::from(here).norm());
-        assert!(
-            change < allowed,
-            "{name}: {here:?} became {elsewhere:?}, off by {change:e}"
-        );
+        assert!(change < allowed, "{name}: {here:?} became {elsewhere:?}, off by {change:e}");
     }
 }
 
@@ -326,22 +277,16 @@ fn a_turned_scene_has_the_turned_result() {
 #[test]
 fn a_shifted_scene_has_the_shifted_result() {
     let shift = Vector3::new(5.0, -3.0, 2.0);
-    for ((file, _), tolerance) in [
-        (six_of_cuboids(0), EULER.ratio),
-        (six_of_a_drop(0), 1e-4),
-        (six_of_balls(0), 1e-7),
-    ] {
+    for ((file, _), tolerance) in
+        [(six_of_cuboids(0), EULER.ratio), (six_of_a_drop(0), 1e-4), (six_of_balls(0), 1e-7)]
+    {
         let here = solved(&file);
         let no_turn = UnitQuaternion::identity();
         let elsewhere = solved(&seen_from_elsewhere(&file, &no_turn, &shift));
         assert_turned(&here, &elsewhere, &no_turn, tolerance);
         for (here, elsewhere) in here.bodies.iter().zip(&elsewhere.bodies) {
             let moved = Vector3::from(here.position) + shift;
-            assert!(
-                distance(elsewhere.position, moved.into()) < 1e-4,
-                "{}",
-                here.name
-            );
+            assert!(distance(elsewhere.position, moved.into()) < 1e-4, "{}", here.name);
         }
     }
 }
@@ -349,10 +294,9 @@ fn a_shifted_scene_has_the_shifted_result() {
 /// Which body is called a is a matter of taste: m becomes 1/m, and J is −J per mass of the other.
 #[test]
 fn swapped_bodies_have_the_inverse_mass_ratio() {
-    for ((file, truth), tolerance) in [
-        (six_of_cuboids(0), EULER.ratio),
-        (six_of_balls(4), EXACT.ratio),
-    ] {
+    for ((file, truth), tolerance) in
+        [(six_of_cuboids(0), EULER.ratio), (six_of_balls(4), EXACT.ratio)]
+    {
         let mut swapped = file.clone();
         swapped.bodies.swap(0, 1);
         let (result, mass) = (solved(&swapped), truth.mass_ratio.unwrap());
@@ -398,10 +342,7 @@ fn a_mass_ratio_of_thirty_ends_at_the_bound() {
 /// degrees of freedom, ± √(2 dof). A hundred scenes leave ± 1 % of it, and four of those are allowed.
 #[test]
 fn what_is_left_over_is_the_noise() {
-    let sigma = Noise {
-        position: 0.002,
-        orientation: 0.01,
-    };
+    let sigma = Noise { position: 0.002, orientation: 0.01 };
     let (mut chi2, mut dof) = (0.0, 0);
     for seed in 0..100 {
         let mut spec = every_ninth_frame(SimulationSpec::random_balls(seed));
@@ -433,13 +374,8 @@ fn a_lone_body_tells_its_own_motion() {
     assert_eq!(result.mass_ratio, None);
     assert_eq!(result.restitution.value, None);
     assert!(result.restitution.reason.unwrap().contains("not known"));
-    let by_distance = Options {
-        segment_by: SegmentCriterion::Distance,
-        ..Options::default()
-    };
-    let message = reconstruct(&scene(&file), &by_distance)
-        .unwrap_err()
-        .to_string();
+    let by_distance = Options { segment_by: SegmentCriterion::Distance, ..Options::default() };
+    let message = reconstruct(&scene(&file), &by_distance).unwrap_err().to_string();
     assert!(message.contains("--segment-by cost"), "{message}");
 }
 
@@ -454,10 +390,7 @@ fn every_result_fits_its_schema_and_explains_its_nulls() {
         file
     };
     let mut noisy = six_poses(SimulationSpec::random_balls(2));
-    noisy.noise = NoiseSpec::Gaussian(Noise {
-        position: 0.002,
-        orientation: 0.01,
-    });
+    noisy.noise = NoiseSpec::Gaussian(Noise { position: 0.002, orientation: 0.01 });
     for file in [
         six_of_cuboids(2).0,
         six_of_a_drop(0).0,
@@ -519,18 +452,12 @@ fn assert_explained(value: &Value, place: &str) {
 #[test]
 fn unmeasured_orientations_are_the_reason_of_their_nulls() {
     let (mut file, _) = six_of_balls(0);
-    file.noise = Some(Noise {
-        position: 0.001,
-        orientation: 0.01,
-    });
+    file.noise = Some(Noise { position: 0.001, orientation: 0.01 });
     let result = solved(&file);
     assert!(result.fit.reduced_chi2.is_some());
     assert!(result.fit.reason.unwrap().contains("orientation"));
     let body = &result.bodies[0];
-    assert_eq!(
-        (body.orientation, body.angular_velocity_before),
-        (None, None)
-    );
+    assert_eq!((body.orientation, body.angular_velocity_before), (None, None));
     assert!(body.reason.as_ref().unwrap().contains("orientations"));
 }
 
@@ -538,19 +465,10 @@ fn unmeasured_orientations_are_the_reason_of_their_nulls() {
 #[test]
 fn threads_change_no_bit() {
     let files: Vec<SceneFile> = (0..4)
-        .flat_map(|seed| {
-            [
-                six_of_cuboids(seed).0,
-                six_of_a_drop(seed).0,
-                six_of_balls(seed).0,
-            ]
-        })
+        .flat_map(|seed| [six_of_cuboids(seed).0, six_of_a_drop(seed).0, six_of_balls(seed).0])
         .collect();
     let texts = || -> Vec<String> {
-        files
-            .iter()
-            .map(|file| text_without_seconds(&solved(file)))
-            .collect()
+        files.iter().map(|file| text_without_seconds(&solved(file))).collect()
     };
     let one_after_another = texts();
     std::thread::scope(|threads| {
@@ -559,10 +477,7 @@ fn threads_change_no_bit() {
             assert_eq!(thread.join().unwrap(), one_after_another);
         }
     });
-    let single = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .unwrap();
+    let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert_eq!(single.install(texts), one_after_another);
 }
 
@@ -587,15 +502,10 @@ fn progress_tells_each_step_once() {
         .collect();
     numbers.sort_unstable();
     assert_eq!(numbers, [1, 2, 3, 4, 5, 6, 7, 8]);
-    let least = told
-        .iter()
-        .map(|step| step.cost)
-        .fold(f64::INFINITY, f64::min);
+    let least = told.iter().map(|step| step.cost).fold(f64::INFINITY, f64::min);
     assert_eq!(least, result.phases[0].cost_final);
     let ends = [(Stage::Impulse, 1), (Stage::ContactPoint, 2)];
-    let expected = ends.map(|(stage, phase)| Progress {
-        stage,
-        cost: result.phases[phase].cost_final,
-    });
+    let expected =
+        ends.map(|(stage, phase)| Progress { stage, cost: result.phases[phase].cost_final });
     assert_eq!(phases, expected);
 }

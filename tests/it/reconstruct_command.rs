@@ -19,11 +19,7 @@ fn folder_with(scene: &Value) -> TempDir {
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_smash"));
-    command
-        .arg("reconstruct")
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::null());
+    command.arg("reconstruct").args(arguments).current_dir(folder).stdin(Stdio::null());
     command
 }
 
@@ -72,10 +68,7 @@ fn the_main_job_writes_the_result_and_tells_it_in_words() {
         assert!(words.contains(expected), "no {expected:?} in\n{words}");
     }
     for flag in &result.flags {
-        assert!(
-            words.contains(flag.meaning()) && words.contains(flag.advice()),
-            "{words}"
-        );
+        assert!(words.contains(flag.meaning()) && words.contains(flag.advice()), "{words}");
     }
 }
 
@@ -140,19 +133,13 @@ fn presets_and_criteria_choose_the_segment() {
 #[test]
 fn warnings_go_to_standard_error_and_into_the_result() {
     let unordered = edited(two_boxes(), |scene| {
-        scene["bodies"][0]["observations"]
-            .as_array_mut()
-            .unwrap()
-            .swap(1, 2);
+        scene["bodies"][0]["observations"].as_array_mut().unwrap().swap(1, 2);
     });
     let folder = folder_with(&unordered);
     let output = run(&folder, &["scene.json", "--json"]);
     assert_eq!(output.status.code(), Some(0));
     let stderr = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        stderr.starts_with("warning: ") && stderr.contains("\n  hint: "),
-        "{stderr}"
-    );
+    assert!(stderr.starts_with("warning: ") && stderr.contains("\n  hint: "), "{stderr}");
     let result = result(&String::from_utf8(output.stdout).unwrap());
     assert_eq!(result.warnings.len(), stderr.matches("warning: ").count());
     for warning in result.warnings {
@@ -173,10 +160,7 @@ fn a_lone_body_is_not_sent_into_an_error() {
     let output = run(&folder, &["scene.json", "--preset", "paper"]);
     assert_eq!(output.status.code(), Some(1));
     let stderr = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        stderr.contains("scene.json") && stderr.contains("--segment-by cost"),
-        "{stderr}"
-    );
+    assert!(stderr.contains("scene.json") && stderr.contains("--segment-by cost"), "{stderr}");
 }
 
 #[test]
@@ -193,10 +177,7 @@ fn wrong_usage_ends_with_exit_code_2() {
         let output = run(&folder, arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert_eq!(output.stdout, b"", "{arguments:?}");
-        assert!(
-            String::from_utf8(output.stderr).unwrap().contains("--help"),
-            "{arguments:?}"
-        );
+        assert!(String::from_utf8(output.stderr).unwrap().contains("--help"), "{arguments:?}");
     }
 }
 
@@ -209,10 +190,7 @@ fn a_terminal_shows_progress() {
         return;
     }
     let folder = folder_with(&two_boxes());
-    let line = format!(
-        "{} reconstruct scene.json -o result.json",
-        env!("CARGO_BIN_EXE_smash")
-    );
+    let line = format!("{} reconstruct scene.json -o result.json", env!("CARGO_BIN_EXE_smash"));
     let output = Command::new("script")
         .args(["--quiet", "--return", "--command", &line, "/dev/null"])
         .env("TERM", "xterm")
@@ -223,15 +201,9 @@ fn a_terminal_shows_progress() {
     let seen = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{seen}");
     // Nine segments for the ten times.
-    assert!(
-        seen.contains("segment") && seen.contains(" of 9, cost "),
-        "{seen}"
-    );
+    assert!(seen.contains("segment") && seen.contains(" of 9, cost "), "{seen}");
     let last_progress = seen.rfind(" of 9, cost ").unwrap();
     // Erase the line, in the terminal's own words, and then the result.
     let rest = &seen[last_progress..];
-    assert!(
-        rest.contains("\u{1b}[2K") && rest.contains("mass ratio"),
-        "{rest:?}"
-    );
+    assert!(rest.contains("\u{1b}[2K") && rest.contains("mass ratio"), "{rest:?}");
 }

@@ -16,20 +16,12 @@ use crate::reconstruct::gravity_frame::to_wxyz;
 #[test]
 fn the_collision_costs_its_breach_of_the_laws() {
     for seed in 0..10 {
-        for spins in [
-            vec![true, true],
-            vec![true, false],
-            vec![false, false],
-            vec![true],
-        ] {
+        for spins in [vec![true, true], vec![true, false], vec![false, false], vec![true]] {
             let case = instant(seed, &spins);
             for phase in PHASES {
                 let (cost, expected) = (case.cost(phase), breach_of_laws(&case, phase));
                 let error = (cost / expected - 1.0).abs();
-                assert!(
-                    error < ROUNDING,
-                    "{spins:?}, {phase:?}: {cost} for {expected}"
-                );
+                assert!(error < ROUNDING, "{spins:?}, {phase:?}: {cost} for {expected}");
             }
         }
     }
@@ -44,10 +36,7 @@ fn instant(seed: u64, spins: &[bool]) -> Case {
     for &has_spin in spins {
         let [position, turned] = [numbers(), numbers()];
         let orientation = to_wxyz(&UnitQuaternion::from_scaled_axis(turned.into()));
-        let mut flight = || PaperFlight {
-            parabola: numbers(),
-            angular_momentum: numbers(),
-        };
+        let mut flight = || PaperFlight { parabola: numbers(), angular_momentum: numbers() };
         unknowns.push(PaperBodyUnknowns {
             position,
             orientation,

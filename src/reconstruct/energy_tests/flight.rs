@@ -19,11 +19,7 @@ fn rotation_goes_by_eulers_quarter_frames() {
             let (body, unknown) = (&scene.bodies[index], &unknowns.bodies[index]);
             let mass = [1.0, unknowns.mass_ratio][index];
             let inertia = mass * Vector3::from(body.inertia_per_mass);
-            let flight = if frames < 0.0 {
-                unknown.before
-            } else {
-                unknown.after
-            };
+            let flight = if frames < 0.0 { unknown.before } else { unknown.after };
             let step_s = frames / scene.frames_per_second / f64::from(steps);
             let mut q = from_wxyz(unknown.orientation);
             for _ in 0..steps {

@@ -18,11 +18,8 @@ use crate::bridge::ffi::{
 use crate::rigid_body::RigidBody;
 use crate::simulate::{Sampling, SimulationSpec, simulate};
 
-const PHASES: [PaperPhase; 3] = [
-    PaperPhase::Trajectories,
-    PaperPhase::Impulse,
-    PaperPhase::ContactPoint,
-];
+const PHASES: [PaperPhase; 3] =
+    [PaperPhase::Trajectories, PaperPhase::Impulse, PaperPhase::ContactPoint];
 /// Half the weights of SMASH section 4.1: the cost of a residual of length 1.
 const HALF_SOFT: f64 = 0.1 / 2.0;
 const HALF_OBSERVED: f64 = 4.0 / 2.0;
@@ -101,9 +98,7 @@ fn simulated(spec: &SimulationSpec) -> Case {
     let bodies = simulation.motions.iter().map(|motion| PaperBodyUnknowns {
         position: to_frame(motion.before.position_in_world),
         orientation: to_wxyz(
-            &internal
-                .frame
-                .orientation_from_world(&motion.before.world_from_body),
+            &internal.frame.orientation_from_world(&motion.before.world_from_body),
         ),
         before: flight(&motion.before),
         after: flight(&motion.after),
@@ -115,11 +110,7 @@ fn simulated(spec: &SimulationSpec) -> Case {
         impulse: to_frame(truth.impulse.into()),
         mass_ratio: truth.mass_ratio.unwrap_or(1.0),
     };
-    Case {
-        collision_frames: truth.collision_time * fps,
-        unknowns,
-        scene: internal.paper,
-    }
+    Case { collision_frames: truth.collision_time * fps, unknowns, scene: internal.paper }
 }
 
 fn cuboids(seed: u64) -> Case {
@@ -142,8 +133,6 @@ fn turn(orientation: &mut [f64; 4], angle: f64) {
 }
 
 fn move_across_impulse(unknowns: &mut PaperUnknowns, by_m: f64) {
-    let across = Vector3::from(unknowns.impulse)
-        .cross(&Vector3::x())
-        .normalize();
+    let across = Vector3::from(unknowns.impulse).cross(&Vector3::x()).normalize();
     unknowns.contact_point = (Vector3::from(unknowns.contact_point) + by_m * across).into();
 }

@@ -19,10 +19,7 @@ fn the_truth_costs_only_the_error_of_eulers_steps() {
         for phase in [PaperPhase::Trajectories, PaperPhase::ContactPoint] {
             let [coarse, fine] = [480.0, 960.0].map(|fps| simulated(&spec(fps)).cost(phase));
             // Steps of 0.5 ms at some rad/s: an error of 1e-3 rad at most in each of 12 poses.
-            assert!(
-                coarse < 12.0 * HALF_OBSERVED * 1e-6,
-                "seed {seed}: {coarse}"
-            );
+            assert!(coarse < 12.0 * HALF_OBSERVED * 1e-6, "seed {seed}: {coarse}");
             // The next order is smaller by the angle of a step, below 1 %.
             let fall = coarse / fine;
             assert!((fall - 4.0).abs() < 0.1, "seed {seed}: falls {fall}-fold");
@@ -63,47 +60,25 @@ fn each_unknown_matters_in_its_phases_alone() {
             let change = (cost - costs[index]).abs();
             let (place, is) = (format!("{name}, phase {}", index + 1), matters[index]);
             // The same sum of the same terms; or moved by a tenth, with no weight below 0.1.
-            assert!(
-                if is { change > 1e-6 } else { change == 0.0 },
-                "{place}: {change}"
-            );
+            assert!(if is { change > 1e-6 } else { change == 0.0 }, "{place}: {change}");
         }
     };
     for (name, matters, change) in scene_wide {
         check(name, matters, case.edited(|c| change(&mut c.unknowns)));
     }
     for body in 0..2 {
-        check(
-            "q",
-            ALL,
-            case.edited(|c| turn(&mut c.unknowns.bodies[body].orientation, 0.1)),
-        );
+        check("q", ALL, case.edited(|c| turn(&mut c.unknowns.bodies[body].orientation, 0.1)));
         for i in 0..3 {
-            check(
-                "b4",
-                ALL,
-                case.edited(|c| c.unknowns.bodies[body].position[i] += 0.1),
-            );
+            check("b4", ALL, case.edited(|c| c.unknowns.bodies[body].position[i] += 0.1));
             for after in [false, true] {
                 let edit = |change: fn(&mut PaperFlight, usize)| {
                     case.edited(|c| {
                         let unknown = &mut c.unknowns.bodies[body];
-                        change(
-                            if after {
-                                &mut unknown.after
-                            } else {
-                                &mut unknown.before
-                            },
-                            i,
-                        );
+                        change(if after { &mut unknown.after } else { &mut unknown.before }, i);
                     })
                 };
                 check("flight", ALL, edit(|flight, i| flight.parabola[i] += 0.1));
-                check(
-                    "k",
-                    ALL,
-                    edit(|flight, i| flight.angular_momentum[i] += 0.1),
-                );
+                check("k", ALL, edit(|flight, i| flight.angular_momentum[i] += 0.1));
             }
         }
     }
@@ -149,11 +124,7 @@ fn every_phase_finds_back_to_the_truth() {
     let drop = simulated(&seen_briefly(SimulationSpec::random_ball_drop(0), 120.0));
     for (name, phases, case) in [
         ("cuboids", &PHASES[2..], cuboids(6).seen_as_predicted()),
-        (
-            "balls",
-            &PHASES[..],
-            spinning_balls(60.0).seen_as_predicted(),
-        ),
+        ("balls", &PHASES[..], spinning_balls(60.0).seen_as_predicted()),
         ("drop", &PHASES[..], drop.seen_as_predicted()),
     ] {
         for &phase in phases {
@@ -164,15 +135,9 @@ fn every_phase_finds_back_to_the_truth() {
             let place = format!("{name}, {phase:?}: {solution:?}");
             assert!(solution.cost_initial > 1e-4, "{place}");
             assert!(solution.converged && solution.iterations < 50, "{place}");
-            assert!(
-                solution.cost_final < 1e-12 * solution.cost_initial,
-                "{place}"
-            );
+            assert!(solution.cost_final < 1e-12 * solution.cost_initial, "{place}");
             let error = Vector3::from(found.impulse) - Vector3::from(case.unknowns.impulse);
-            assert!(
-                phase == PaperPhase::Trajectories || error.norm() < 1e-5,
-                "{place}"
-            );
+            assert!(phase == PaperPhase::Trajectories || error.norm() < 1e-5, "{place}");
         }
     }
 }
