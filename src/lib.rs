@@ -35,3 +35,8 @@ pub fn silence_solver_log() {
     // It only sets a number: there is nothing to report.
     let _ = bridge::ffi::silence_ceres_log();
 }
+
+/// The README's Rust is compiled as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -12,7 +12,8 @@ impl Scene {
     ///
     /// # Errors
     /// The file can't be read, isn't JSON, or breaks a rule; with place, value and mend.
-    pub fn read(path: &Path) -> Result<Scene> {
+    pub fn read(path: impl AsRef<Path>) -> Result<Scene> {
+        let path = path.as_ref();
         Scene::parse(&read_text(path)?, &display_name(path, "standard input"))
     }
 

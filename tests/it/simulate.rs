@@ -443,7 +443,7 @@ fn an_endless_computation_is_refused() {
 fn an_independent_engine_moves_the_bodies_the_same_way() {
     let data = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data");
     let spec = SimulationSpec::read(format!("{data}/bullet_00.spec.json").as_ref()).unwrap();
-    let bullet = smash::Scene::read(format!("{data}/bullet_00.json").as_ref()).unwrap();
+    let bullet = smash::Scene::read(format!("{data}/bullet_00.json")).unwrap();
     let ours = simulate(&spec).unwrap();
     let mut worst_wrong_degrees = 0.0_f64;
     for (index, expected) in bullet.bodies().iter().enumerate() {
