@@ -1,0 +1,48 @@
+//! The examples run, and print what their first lines promise.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Cargo builds the examples beside the tests.
+fn run(name: &str, arguments: &[&str]) -> String {
+    let tests: PathBuf = std::env::current_exe().unwrap().parent().unwrap().into();
+    let program = tests.parent().unwrap().join("examples").join(name);
+    let output = Command::new(&program)
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap_or_else(|error| panic!("{}: {error}", program.display()));
+    assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn the_first_example_reads_off_the_mass_ratio() {
+    let text = run("first", &["scenes/boxes.json"]);
+    assert!(text.contains("b weighs 1.8"), "the scene was made with 1.8: {text}");
+}
+
+#[test]
+fn recover_prints_one_row_a_noise_with_the_truth() {
+    let text = run("recover", &[]);
+    assert_eq!(text.lines().filter(|line| line.contains(" mm ")).count(), 3, "{text}");
+}
+
+#[test]
+fn the_folder_example_has_a_row_for_each_scene() {
+    let text = run("folder", &["scenes"]);
+    let scenes = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes")).unwrap();
+    let names = scenes.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let count = names.filter(|n| n.ends_with(".json") && !n.ends_with(".spec.json")).count();
+    assert_eq!(text.lines().count(), 2 + count, "{text}");
+}
+
+#[test]
+fn the_evaluation_prints_a_row_for_each_noise_and_method_and_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let figure = folder.path().join("figure.svg");
+    let arguments = ["--scenes", "1", "--intervals", "19", "--svg", figure.to_str().unwrap()];
+    let text = run("evaluate", &arguments);
+    assert_eq!(text.lines().count(), 2 + 4 * 2, "{text}");
+    assert!(std::fs::read_to_string(figure).unwrap().ends_with("</svg>\n"));
+}
