@@ -19,7 +19,9 @@ fn run(name: &str, arguments: &[&str]) -> String {
 #[test]
 fn the_first_example_reads_off_the_mass_ratio() {
     let text = run("first", &["scenes/boxes.json"]);
-    assert!(text.contains("b weighs 1.8"), "the scene was made with 1.8: {text}");
+    let weighs = text.strip_prefix("b weighs ").unwrap().split(' ').next().unwrap();
+    // The scene was made with 1.8; its noise of 2 mm and 0.01 rad moves that by a per cent or so.
+    assert!((weighs.parse::<f64>().unwrap() - 1.8).abs() < 0.05, "{text}");
 }
 
 #[test]
