@@ -22,6 +22,7 @@ fn main() {
     build
         .file("cpp/bridge.cc")
         .file("cpp/problem.cc")
+        .file("cpp/validate.cc")
         .include("cpp")
         // As system headers: their warnings aren't ours.
         .flag(format!("-isystem{}", include.join("eigen3").display()))

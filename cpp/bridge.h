@@ -13,6 +13,7 @@ struct PaperScene;
 struct PaperUnknowns;
 struct PaperSolution;
 struct PaperPose;
+struct PaperVelocities;
 enum class PaperPhase : ::std::uint8_t;
 
 PaperSolution solve_paper_phase(const PaperScene& scene, double collision_frames, PaperPhase phase,
@@ -21,6 +22,9 @@ PaperSolution solve_paper_phase(const PaperScene& scene, double collision_frames
 rust::Vec<PaperPose> predict_paper_poses(const PaperScene& scene, double collision_frames,
                                          const PaperUnknowns& unknowns, std::size_t body,
                                          rust::Slice<const double> times_frames);
+
+PaperVelocities paper_collision_velocities(const PaperScene& scene, const PaperUnknowns& unknowns,
+                                           std::size_t body);
 
 rust::String ceres_version();
 

@@ -4,7 +4,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "functors/momentum.h"
 #include "functors/orientation.h"
 #include "functors/position.h"
+#include "validate.h"
 
 namespace smash {
 namespace {
@@ -24,9 +24,6 @@ constexpr double kImpulseWeight = 0.1;
 constexpr double kGravityWeight = 1.0;
 constexpr double kPositionWeight = 4.0;
 constexpr double kOrientationWeight = 4.0;
-// SMASH section 5.1, "synthetic data".
-constexpr double kSmallestMassRatio = 1e-5;
-constexpr double kLargestMassRatio = 10.0;
 
 // Builds the problem over a copy of the start values, which the solver then moves.
 class PaperProblem {
@@ -61,7 +58,8 @@ class PaperProblem {
     solution.unknowns = unknowns_;
     solution.cost_initial = summary.initial_cost;
     solution.cost_final = summary.final_cost;
-    solution.iterations = static_cast<std::uint32_t>(summary.iterations.size()) - 1;
+    solution.iterations =
+        static_cast<std::uint32_t>(summary.num_successful_steps + summary.num_unsuccessful_steps);
     solution.converged = summary.termination_type == ceres::CONVERGENCE;
     return solution;
   }
@@ -170,59 +168,7 @@ class PaperProblem {
   ceres::Problem problem_;
 };
 
-[[noreturn]] void Refuse(const std::string& what) {
-  throw std::invalid_argument("invalid input: " + what);
-}
-
-template <std::size_t N>
-bool AllFinite(const std::array<double, N>& values) {
-  for (const double value : values) {
-    if (!std::isfinite(value)) return false;
-  }
-  return true;
-}
-
-void CheckBody(const PaperBody& body) {
-  for (const double moment : body.inertia_per_mass) {
-    if (!(moment > 0 && std::isfinite(moment))) Refuse("a moment of inertia isn't positive");
-  }
-  if (body.observations.empty()) Refuse("a body without observations");
-  for (const PaperObservation& observation : body.observations) {
-    if (!std::isfinite(observation.time_frames) || !AllFinite(observation.position) ||
-        !AllFinite(observation.orientation)) {
-      Refuse("an observation that isn't finite");
-    }
-  }
-}
-
-bool IsUnit(const std::array<double, 4>& q) {
-  return std::abs(ToQuaternion(q).norm() - 1.0) < 1e-6;
-}
-
 }  // namespace
-
-void CheckPaperInput(const PaperScene& scene, double collision_frames,
-                     const PaperUnknowns& unknowns) {
-  if (scene.bodies.empty() || scene.bodies.size() > 2) Refuse("there must be one or two bodies");
-  if (unknowns.bodies.size() != scene.bodies.size()) Refuse("unknowns and bodies differ in number");
-  if (!(scene.frames_per_second > 0 && std::isfinite(scene.frames_per_second))) {
-    Refuse("the frame rate isn't positive");
-  }
-  if (!(scene.gravity_m_s2 >= 0 && std::isfinite(scene.gravity_m_s2))) {
-    Refuse("gravity is negative or not finite");
-  }
-  if (!std::isfinite(collision_frames) || !AllFinite(scene.plane_normal) ||
-      !std::isfinite(scene.plane_height_m)) {
-    Refuse("the collision time or the plane isn't finite");
-  }
-  for (const PaperBody& body : scene.bodies) CheckBody(body);
-  for (const PaperBodyUnknowns& body : unknowns.bodies) {
-    if (!IsUnit(body.orientation)) Refuse("a start orientation isn't a unit quaternion");
-  }
-  if (!(unknowns.mass_ratio >= kSmallestMassRatio && unknowns.mass_ratio <= kLargestMassRatio)) {
-    Refuse("the start mass ratio is out of its bounds");
-  }
-}
 
 PaperSolution SolvePaperPhase(const PaperScene& scene, double collision_frames, PaperPhase phase,
                               const PaperUnknowns& start) {

@@ -5,12 +5,8 @@
 
 namespace smash {
 
-// Throws std::invalid_argument where Ceres would otherwise end the process: the only gate to it.
-void CheckPaperInput(const PaperScene& scene, double collision_frames,
-                     const PaperUnknowns& unknowns);
-
-// Minimises the energy of `phase` from `start`. Throws std::runtime_error when no usable solution
-// is found.
+// Minimises the energy of `phase` from `start`, which has passed CheckPaperInput. Throws
+// std::runtime_error when no usable solution is found.
 PaperSolution SolvePaperPhase(const PaperScene& scene, double collision_frames, PaperPhase phase,
                               const PaperUnknowns& start);
 

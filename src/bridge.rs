@@ -101,6 +101,13 @@ pub(crate) mod ffi {
         orientation: [f64; 4],
     }
 
+    /// Velocities of a body at the collision, m/s.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    struct PaperVelocities {
+        before: [f64; 3],
+        after: [f64; 3],
+    }
+
     unsafe extern "C++" {
         include!("bridge.h");
 
@@ -120,6 +127,13 @@ pub(crate) mod ffi {
             body: usize,
             times_frames: &[f64],
         ) -> Result<Vec<PaperPose>>;
+
+        /// The velocities of body number `body` at the collision (eq. 7).
+        fn paper_collision_velocities(
+            scene: &PaperScene,
+            unknowns: &PaperUnknowns,
+            body: usize,
+        ) -> Result<PaperVelocities>;
 
         /// The version of Ceres that this was built with.
         fn ceres_version() -> Result<String>;

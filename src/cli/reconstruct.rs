@@ -62,7 +62,7 @@ impl Arguments {
         let path = self.scene.display();
         let mut steps = Vec::new();
         let has_partner = scene.bodies().len() == 2 || scene.plane().is_some();
-        if result.segment_by == "distance" {
+        if result.segment_by == SegmentCriterion::Distance {
             steps.push(format!(
                 "smash reconstruct {path} --preset paper --segment-by cost    \
                  finds the right segment more often"

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use smash::files::Output;
-use smash::reconstruct::{BodyResult, Estimate, Flag, Reconstruction};
+use smash::reconstruct::{BodyResult, Estimate, Flag, Reconstruction, SegmentCriterion};
 
 /// The summary that `smash reconstruct` prints.
 pub fn of(result: &Reconstruction, next: &[String], output: Option<&Output>) -> String {
@@ -20,22 +20,31 @@ fn write_summary(
     output: Option<&Output>,
 ) -> std::fmt::Result {
     let name = if result.scene.is_empty() { "the collision" } else { &result.scene };
-    writeln!(out, "{name} (preset {}, segment by {})\n", result.preset, result.segment_by)?;
+    writeln!(out, "{name} ({})\n", method(result))?;
+    for flag in &result.flags {
+        writeln!(out, "flag: {}", flag.meaning())?;
+    }
+    for advice in advice(&result.flags) {
+        writeln!(out, "  hint: {advice}")?;
+    }
+    if !result.flags.is_empty() {
+        writeln!(out)?;
+    }
     match &result.mass_ratio {
         Some(estimate) => writeln!(out, "  mass ratio m_b/m_a   {}", number(estimate, ""))?,
         None => writeln!(out, "  mass ratio m_b/m_a   none: a single body")?,
     }
     writeln!(out, "  restitution          {}", number(&result.restitution, ""))?;
     writeln!(out, "  collision time       {}", number(&result.collision_time, " s"))?;
-    let [x, y, z] = result.impulse;
-    writeln!(out, "  impulse on a         ({x:.3}, {y:.3}, {z:.3}) N·s per kg of a\n")?;
+    writeln!(
+        out,
+        "  impulse on a         ({}) N·s per kg of a\n",
+        digits(result.impulse).join(", ")
+    )?;
     writeln!(out, "{}", table(&result.bodies))?;
-    writeln!(out, "  error of the fit     {}\n", fit_error(result))?;
-    for flag in &result.flags {
-        write_flag(out, *flag)?;
-    }
+    writeln!(out, "  error of the fit     {}", fit_error(result))?;
     if result.flags.is_empty() {
-        writeln!(out, "No flags: the fit shows none of the known signs of failure.")?;
+        writeln!(out, "\nNo flags: the fit shows none of the known signs of failure.")?;
     }
     if output.is_none() && next.is_empty() {
         return Ok(());
@@ -50,6 +59,20 @@ fn write_summary(
     Ok(())
 }
 
+fn method(result: &Reconstruction) -> &'static str {
+    match result.segment_by {
+        SegmentCriterion::Distance => "the paper to the letter: segment by distance",
+        _ => "the paper's method, segment by cost",
+    }
+}
+
+/// What to do about the flags, each advice once.
+fn advice(flags: &[Flag]) -> Vec<&'static str> {
+    let mut advice: Vec<&str> = flags.iter().map(|flag| flag.advice()).collect();
+    advice.dedup();
+    advice
+}
+
 fn number(estimate: &Estimate, unit: &str) -> String {
     match (estimate.value, estimate.std) {
         (Some(value), Some(std)) => format!("{value:.4}{unit} ± {std:.1e}{unit}"),
@@ -60,24 +83,38 @@ fn number(estimate: &Estimate, unit: &str) -> String {
 
 /// Velocities and spins before and after, one row each.
 fn table(bodies: &[BodyResult]) -> String {
-    let width = bodies.iter().map(|body| body.name.chars().count()).max().unwrap_or(0);
-    let mut text = format!("  {:width$}  {:<30}{:<30}\n", "", "velocity (m/s)", "spin (rad/s)",);
+    let mut rows =
+        vec![[String::new(), String::new(), "velocity (m/s)".into(), "spin (rad/s)".into()]];
     for body in bodies {
-        let rows = [
+        let sides = [
             ("before", body.velocity_before, body.angular_velocity_before),
             ("after", body.velocity_after, body.angular_velocity_after),
         ];
-        for (side, velocity, spin) in rows {
-            let spin = spin.map_or("not measured".to_string(), vector);
-            let name = if side == "before" { body.name.as_str() } else { "" };
-            let _ = writeln!(text, "  {name:width$}  {side:<7}{:<28}{spin}", vector(velocity));
+        for (side, velocity, spin) in sides {
+            let name = if side == "before" { body.name.clone() } else { String::new() };
+            rows.push([name, side.into(), row(velocity), spin.map_or("not measured".into(), row)]);
         }
     }
-    text
+    let width = |column: usize| rows.iter().map(|r| r[column].chars().count()).max().unwrap_or(0);
+    let [name, side, velocity] = [width(0), width(1), width(2)];
+    let lines = rows.iter().map(|[a, b, c, d]| {
+        format!("  {a:name$}  {b:side$}  {c:velocity$}  {d}").trim_end().to_string() + "\n"
+    });
+    lines.collect()
 }
 
-fn vector([x, y, z]: [f64; 3]) -> String {
-    format!("({x:7.3}, {y:7.3}, {z:7.3})")
+/// Three numbers in columns; a wider one moves only its own row's end.
+fn row(v: [f64; 3]) -> String {
+    digits(v).map(|number| format!("{number:>9}")).concat()
+}
+
+/// Three digits behind the point, or scientific where that says nothing.
+fn digits(v: [f64; 3]) -> [String; 3] {
+    v.map(|x| match x.abs() {
+        ..0.0005 => "0.000".to_string(),
+        10_000.0.. => format!("{x:.2e}"),
+        _ => format!("{x:.3}"),
+    })
 }
 
 fn fit_error(result: &Reconstruction) -> String {
@@ -86,9 +123,4 @@ fn fit_error(result: &Reconstruction) -> String {
         Some(angle) => format!("{position}, {:.2}° an axis", angle.to_degrees()),
         None => position,
     }
-}
-
-fn write_flag(out: &mut String, flag: Flag) -> std::fmt::Result {
-    writeln!(out, "flag: {}", flag.meaning())?;
-    writeln!(out, "  hint: {}", flag.advice())
 }

@@ -4,10 +4,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Fit;
+use super::push::Push;
+use crate::Scene;
 
 /// A doubt, as a word in the result file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Flag {
     /// The mass ratio ended at a bound, 10⁻⁵ or 10 (the paper's sign of failure).
     MassRatioAtBound,
@@ -15,7 +18,9 @@ pub enum Flag {
     RestitutionOutOfRange,
     /// The limit on iterations ended the last phase.
     NotConverged,
-    /// The bodies hardly pushed each other: the poses don't tell the mass ratio.
+    /// No body's jump in velocity stands out of the noise: perhaps nothing was hit.
+    NoVisibleImpulse,
+    /// A body's jump in velocity doesn't stand out of the noise: the mass ratio is at best a bound.
     MassRatioUnidentifiable,
     /// The model misses the poses by more than their noise, or visibly where none is stated.
     PoorFit,
@@ -31,8 +36,12 @@ impl Flag {
                  through each other"
             }
             Flag::NotConverged => "the last phase ended before it settled",
+            Flag::NoVisibleImpulse => {
+                "no jump in velocity stands out of the noise: perhaps nothing was hit"
+            }
             Flag::MassRatioUnidentifiable => {
-                "the jumps in velocity don't stand out of the noise: the poses don't tell the mass ratio"
+                "a body's jump in velocity doesn't stand out of the noise: the mass ratio is at \
+                 best a bound"
             }
             Flag::PoorFit => "the model misses the poses by more than annotations scatter",
         }
@@ -46,36 +55,73 @@ impl Flag {
                  each side help most; try the other --segment-by"
             }
             Flag::NotConverged => "check for poses far off their neighbours",
-            Flag::MassRatioUnidentifiable => "film a harder hit, or annotate longer flights",
+            Flag::NoVisibleImpulse | Flag::MassRatioUnidentifiable => {
+                "film a harder hit, or annotate more poses and longer flights"
+            }
             Flag::PoorFit => {
-                "look for wrong poses or times; a dense annotation of fast spins misleads the \
-                 paper's start: try every 5th to 10th pose"
+                "check the order of the quaternion's components, `up`, `fps` and the units, then \
+                 single poses; fast spins seen in every frame mislead the paper's start (try every \
+                 5th to 10th pose), and its collision time is fixed midway between two poses"
             }
         }
     }
 }
 
-/// Without a stated noise: an annotator sees a pose that is 0.1 rad off, or off by a quarter of the
-/// body's shortest extent.
+/// Without a stated noise: an annotator sees a pose that is 0.1 rad off.
 const VISIBLE_ANGLE_RAD: f64 = 0.1;
+/// Without a stated noise: positions may lie twice as far off as they scatter about each flight's
+/// own parabola, and always by a hundredth of the shortest extent, which costs nothing to see.
+const POOR_SCATTERS: f64 = 2.0;
+const TOLERATED_SHARE_OF_EXTENT: f64 = 0.01;
+/// Without a stated noise and without spare poses to estimate it: a quarter of the extent.
 const VISIBLE_SHARE_OF_EXTENT: f64 = 0.25;
-
 /// With a stated noise: residuals of twice the noise. The paper's fixed collision time alone makes
 /// them larger than the noise.
 const POOR_REDUCED_CHI2: f64 = 4.0;
 
-/// Whether the residuals are too large. `shortest_extent_m`: of the smaller body.
-pub(super) fn is_poor(fit: &Fit, shortest_extent_m: f64) -> bool {
-    match fit.reduced_chi2 {
-        Some(reduced) => reduced > POOR_REDUCED_CHI2,
-        None => {
-            fit.position_rmse > VISIBLE_SHARE_OF_EXTENT * shortest_extent_m
-                || fit.orientation_rmse.is_some_and(|angle| angle > VISIBLE_ANGLE_RAD)
-        }
-    }
+/// What may be doubtful, besides the fit itself.
+pub(super) struct Doubts {
+    /// `None` with a single dynamic body.
+    pub(super) mass_ratio: Option<f64>,
+    pub(super) restitution: Option<f64>,
+    pub(super) converged: bool,
+    pub(super) push: Push,
+    /// The noise of positions as far as flights show it.
+    pub(super) scatter_m: Option<f64>,
 }
 
-/// The bounds of the paper (section 5.1), with room for a solver that stops just inside.
-pub(super) fn mass_ratio_at_bound(mass_ratio: f64) -> bool {
-    !(1.001e-5..=9.999).contains(&mass_ratio)
+/// The flags that a reconstruction deserves.
+pub(super) fn flags(scene: &Scene, fit: &Fit, doubts: &Doubts) -> Vec<Flag> {
+    let out_of_range = |c: f64| !(0.0..=1.0).contains(&c);
+    [
+        (doubts.mass_ratio.is_some_and(at_bound), Flag::MassRatioAtBound),
+        (doubts.restitution.is_some_and(out_of_range), Flag::RestitutionOutOfRange),
+        (!doubts.converged, Flag::NotConverged),
+        (!doubts.push.any, Flag::NoVisibleImpulse),
+        (doubts.mass_ratio.is_some() && !doubts.push.all, Flag::MassRatioUnidentifiable),
+        (is_poor(scene, fit, doubts.scatter_m), Flag::PoorFit),
+    ]
+    .into_iter()
+    .filter_map(|(raised, flag)| raised.then_some(flag))
+    .collect()
+}
+
+/// At a bound of the paper (section 5.1), or as near as makes no difference.
+fn at_bound(mass_ratio: f64) -> bool {
+    !(1e-4..=9.999).contains(&mass_ratio)
+}
+
+/// Whether the model misses the poses.
+fn is_poor(scene: &Scene, fit: &Fit, scatter_m: Option<f64>) -> bool {
+    if let Some(reduced) = fit.reduced_chi2 {
+        return reduced > POOR_REDUCED_CHI2;
+    }
+    let extent_m =
+        scene.bodies().iter().map(|b| b.shape.shortest_extent_m()).fold(f64::MAX, f64::min);
+    let tolerated_m = match scatter_m {
+        Some(scatter) => (POOR_SCATTERS * scatter).max(TOLERATED_SHARE_OF_EXTENT * extent_m),
+        None => VISIBLE_SHARE_OF_EXTENT * extent_m,
+    };
+    fit.position_rmse > tolerated_m
+        || fit.orientation_rmse.is_some_and(|angle| angle > VISIBLE_ANGLE_RAD)
 }

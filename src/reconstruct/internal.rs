@@ -1,5 +1,6 @@
 //! The scene as the paper's energy sees it: in the gravity frame, with time in frames.
 
+use super::SegmentCriterion;
 use super::gravity_frame::{GravityFrame, to_wxyz};
 use crate::bridge::ffi::{PaperBody, PaperObservation, PaperScene};
 use crate::rigid_body::principal_inertia_per_mass;
@@ -9,8 +10,9 @@ use crate::{Error, ErrorKind, Result, Scene};
 /// The paper's own frame rate, for scenes with times and no frames.
 const NOMINAL_FRAMES_PER_SECOND: f64 = 60.0;
 
-/// Beyond this many Euler steps an evaluation the search would take days.
-const MOST_EULER_STEPS: f64 = 2e9;
+/// Beyond this many Euler steps in one evaluation of all segments the search takes more than some
+/// ten minutes on a core: 4e6 take about 20 s (`benches/reconstruct.rs` has such scenes).
+const MOST_EULER_STEPS: f64 = 1e8;
 
 /// A scene turned into the paper's terms, with the way back.
 pub(super) struct InternalScene {
@@ -42,6 +44,17 @@ impl InternalScene {
         self.paper.bodies.len() == 2 || self.paper.plane_normal != [0.0; 3]
     }
 
+    /// The collision times to search through, in frames: the middle of each gap between
+    /// observations. By cost only gaps with two poses a side: a single pose on a side fits any
+    /// parabola at no cost.
+    pub(super) fn collision_frames(&self, scene: &Scene, by: SegmentCriterion) -> Vec<f64> {
+        let gaps = match by {
+            SegmentCriterion::Distance => scene.all_gaps(),
+            SegmentCriterion::Cost => scene.gaps(),
+        };
+        gaps.iter().map(|gap| gap.midpoint_s() * self.paper.frames_per_second).collect()
+    }
+
     pub(super) fn seconds(&self, frames: f64) -> f64 {
         frames / self.paper.frames_per_second
     }
@@ -70,12 +83,16 @@ fn paper_body(body: &DynamicBody, frames_per_second: f64, frame: &GravityFrame) 
 
 /// Refuses what would seem to hang: every segment integrates from its middle to every pose.
 fn check_work(paper: &PaperScene) -> Result<()> {
-    let times = || paper.bodies.iter().flat_map(|b| &b.observations).map(|o| o.time_frames);
+    let times = || {
+        let turning = paper.bodies.iter().filter(|body| body.has_spin);
+        turning.flat_map(|b| &b.observations).filter(|o| o.has_orientation).map(|o| o.time_frames)
+    };
     let first = times().fold(f64::INFINITY, f64::min);
     let last = times().fold(f64::NEG_INFINITY, f64::max);
     let poses = times().count() as f64;
     let steps = poses * poses * 4.0 * (last - first) / 3.0;
-    if steps <= MOST_EULER_STEPS {
+    // Without orientations there is nothing to integrate: `last` - `first` is then -infinity.
+    if steps.is_nan() || steps <= MOST_EULER_STEPS {
         return Ok(());
     }
     let problem = format!(

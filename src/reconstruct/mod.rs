@@ -16,12 +16,20 @@ mod progress;
 mod push;
 mod report;
 mod result;
+mod scatter;
 mod segment_search;
 mod start;
+mod states;
 
 pub use flags::Flag;
 pub use progress::{Progress, Stage};
-pub use result::{BodyResult, Estimate, Fit, PhaseReport, RESULT_SCHEMA, Reconstruction};
+pub use result::{
+    BodyResult, Effect, Estimate, Fit, Parameter, PhaseReport, Preset, RESULT_SCHEMA,
+    Reconstruction,
+};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::{Error, ErrorKind, Result, Scene};
 
@@ -49,7 +57,9 @@ impl Default for Options {
 }
 
 /// What the right segment has least of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum SegmentCriterion {
     /// The paper's: distance of the two centres at the collision, or of the centre from the plane.
     Distance,
@@ -92,7 +102,8 @@ pub fn reconstruct_with_progress(
             .at("bodies")
             .mend("add the other body or a static plane, or use `--segment-by cost`"));
     }
-    let solved = phases::solve(&internal.paper, options, progress)?;
+    let collision_frames = internal.collision_frames(scene, options.segment_by);
+    let solved = phases::solve(&internal.paper, &collision_frames, options, progress)?;
     report::reconstruction(scene, &internal, options, &solved)
 }
 

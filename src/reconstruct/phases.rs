@@ -13,6 +13,8 @@ use crate::bridge::ffi::{self, PaperPhase, PaperScene, PaperSolution, PaperUnkno
 /// The outcome of all three phases.
 pub(super) struct Solved {
     pub(super) collision_frames: f64,
+    /// How many segments were searched.
+    pub(super) segments: usize,
     pub(super) unknowns: PaperUnknowns,
     pub(super) cost: f64,
     pub(super) converged: bool,
@@ -22,10 +24,11 @@ pub(super) struct Solved {
 /// Runs the segment search with phase 1 in each, then phases 2 and 3 in the best.
 pub(super) fn solve(
     scene: &PaperScene,
+    collision_frames: &[f64],
     options: &Options,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Solved> {
-    let segment = segment_search::search(scene, options, progress)?;
+    let segment = segment_search::search(scene, collision_frames, options, progress)?;
     let trajectories = segment.solution;
     let mut phases = vec![report("1 trajectories", &trajectories, segment.seconds)];
     let mut run = |name, phase, stage, start: &PaperUnknowns| -> Result<PaperSolution> {
@@ -44,6 +47,7 @@ pub(super) fn solve(
         run("3 contact point", PaperPhase::ContactPoint, Stage::ContactPoint, &impulse.unknowns)?;
     Ok(Solved {
         collision_frames: segment.collision_frames,
+        segments: collision_frames.len(),
         cost: contact.cost_final,
         converged: contact.converged,
         unknowns: contact.unknowns,

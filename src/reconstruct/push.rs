@@ -6,28 +6,39 @@ use super::internal::InternalScene;
 use super::phases::Solved;
 use crate::bridge::ffi::PaperObservation;
 
-/// A three-dimensional normal deviate exceeds this many σ of a coordinate once in twenty
-/// (χ² with 3 degrees of freedom: 7.81).
-const VISIBLE_SIGMAS: f64 = 2.8;
+/// Which bodies' jumps stand out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Push {
+    /// At least one body was pushed: there was an impulse.
+    pub(super) any: bool,
+    /// Every body was pushed: their masses can be compared.
+    pub(super) all: bool,
+}
 
-/// Whether at least one body's jump in velocity, in m/s, stands out of the noise.
-pub(super) fn is_visible(
+/// Compares each body's jump in velocity, in m/s, with its standard error.
+pub(super) fn visible(
     internal: &InternalScene,
     solved: &Solved,
     jumps_m_s: &[f64],
     position_rmse: f64,
-) -> bool {
-    jumps_m_s.iter().zip(&internal.paper.bodies).any(|(jump_m_s, body)| {
-        let fps = internal.paper.frames_per_second;
-        match jump_std_per_noise(&body.observations, solved.collision_frames, fps) {
-            Some(std) => {
-                let noise = position_rmse * spare_correction(body.observations.len());
-                *jump_m_s > VISIBLE_SIGMAS * std * noise
-            }
-            // Too few poses to tell: the jump is what the fit says it is.
-            None => *jump_m_s > 0.0,
-        }
-    })
+) -> Push {
+    let fps = internal.paper.frames_per_second;
+    let mut visible = jumps_m_s.iter().zip(&internal.paper.bodies).map(|(jump_m_s, body)| {
+        let noise = position_rmse * spare_correction(body.observations.len());
+        let std = jump_std_per_noise(&body.observations, solved.collision_frames, fps);
+        // Too few poses to tell: the jump is what the fit says it is.
+        *jump_m_s > std.map_or(0.0, |std| visible_sigmas(solved.segments) * std * noise)
+    });
+    let first = visible.next().unwrap_or(false);
+    let rest: Vec<bool> = visible.collect();
+    Push { any: first || rest.contains(&true), all: first && !rest.contains(&false) }
+}
+
+/// How many σ of a coordinate the largest of `segments` jumps of pure noise exceeds less than once
+/// in twenty searches: √ of the quantile of χ² with three degrees of freedom at 1 − 0.05/segments,
+/// 7.81 for one segment and at most 2.4 more each time their number grows by e.
+fn visible_sigmas(segments: usize) -> f64 {
+    (7.81 + 2.4 * (segments.max(1) as f64).ln()).sqrt()
 }
 
 /// √(n / (n − 3)): a flight of n poses uses up three of each coordinate's residuals.

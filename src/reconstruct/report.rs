@@ -2,16 +2,17 @@
 
 use nalgebra::{UnitVector3, Vector3};
 
+use super::Options;
 use super::fit::fit;
-use super::flags::{Flag, is_poor, mass_ratio_at_bound};
-use super::gravity_frame::{from_wxyz, to_wxyz};
+use super::flags::{Doubts, flags};
+use super::gravity_frame::to_wxyz;
 use super::internal::InternalScene;
 use super::phases::Solved;
-use super::result::{BodyResult, Estimate, RESULT_SCHEMA, Reconstruction};
-use super::{Options, SegmentCriterion, push};
-use crate::bridge::ffi::{PaperFlight, PaperObservation};
-use crate::rigid_body::{Contact, RigidBody};
-use crate::scene::Shape;
+use super::push::{self, Push};
+use super::result::{BodyResult, Estimate, Preset, RESULT_SCHEMA, Reconstruction};
+use super::scatter::position_scatter_m;
+use super::states::{States, settle_on_line, states};
+use crate::rigid_body::Contact;
 use crate::{Result, Scene};
 
 const NO_STD: &str = "the paper's weighted energy has no noise model, hence no standard deviation";
@@ -19,18 +20,7 @@ const NO_PARTNER: &str = "a single body without a plane: what it hit is not know
 const NO_IMPULSE: &str = "the jumps in velocity don't stand out of the noise";
 const NO_APPROACH: &str = "the touching points had no normal velocity before";
 const NO_SPIN: &str = "too few orientations are annotated to tell the rotation";
-
-/// A body just before and just after the collision, in the world.
-struct States {
-    before: RigidBody,
-    after: RigidBody,
-}
-
-impl States {
-    fn jump_m_s(&self) -> f64 {
-        (self.after.velocity_in_world - self.before.velocity_in_world).norm()
-    }
-}
+const NO_SURFACE: &str = "it needs the spins, and too few orientations are annotated";
 
 /// The reconstruction that `solved` stands for.
 pub(super) fn reconstruction(
@@ -39,42 +29,40 @@ pub(super) fn reconstruction(
     options: &Options,
     solved: &Solved,
 ) -> Result<Reconstruction> {
-    let states: Vec<States> =
-        (0..scene.bodies().len()).map(|index| states(scene, internal, solved, index)).collect();
+    let states = states(scene, internal, solved)?;
     let fit = fit(internal, solved, scene.noise())?;
-    let poor = is_poor(&fit, shortest_extent_m(scene));
-    let impulse = world_vector(internal, solved.unknowns.impulse);
-    let contact_point = world_vector(internal, solved.unknowns.contact_point);
-    let normal = match scene.plane() {
-        Some(plane) => Some(plane.normal_in_world),
-        None => UnitVector3::try_new(impulse, f64::MIN_POSITIVE),
-    };
-    let contact =
-        normal.map(|normal| Contact { point_in_world: contact_point, normal_in_world: normal });
     let jumps: Vec<f64> = states.iter().map(States::jump_m_s).collect();
-    let pushed = push::is_visible(internal, solved, &jumps, fit.position_rmse);
-    let mass_ratio = (states.len() == 2).then(|| match pushed {
+    let push = push::visible(internal, solved, &jumps, fit.position_rmse);
+    let impulse = world_vector(internal, solved.unknowns.impulse);
+    let contact = contact(scene, internal, solved, &states, &impulse).filter(|_| push.any);
+    let mass_ratio = (states.len() == 2).then(|| match push.any {
         true => estimate(solved.unknowns.mass_ratio),
         false => unknown(NO_IMPULSE),
     });
-    let restitution = restitution(contact.filter(|_| pushed), &states, scene.plane().is_some());
-    let bodies = (0..states.len()).map(|i| body_result(scene, internal, solved, i, &states[i]));
+    let restitution = restitution(scene, contact, &states, push);
+    let collision_time_s = internal.seconds(solved.collision_frames);
+    let doubts = Doubts {
+        mass_ratio: (states.len() == 2).then_some(solved.unknowns.mass_ratio),
+        restitution: restitution.value,
+        converged: solved.converged,
+        push,
+        scatter_m: position_scatter_m(scene, collision_time_s),
+    };
     Ok(Reconstruction {
         schema: RESULT_SCHEMA.to_string(),
         scene: scene.name().to_string(),
-        preset: "paper".to_string(),
-        segment_by: match options.segment_by {
-            SegmentCriterion::Distance => "distance".to_string(),
-            SegmentCriterion::Cost => "cost".to_string(),
-        },
-        flags: flags(solved, pushed, &states, &restitution, poor),
+        preset: Preset::Paper,
+        segment_by: options.segment_by,
+        flags: flags(scene, &fit, &doubts),
         mass_ratio,
         restitution,
-        collision_time: estimate(internal.seconds(solved.collision_frames)),
-        contact_point: contact_point.into(),
+        collision_time: estimate(collision_time_s),
+        contact_point: contact
+            .filter(|_| tells_contact_point(internal, &states))
+            .map(|contact| contact.point_in_world.into()),
         impulse: impulse.into(),
-        normal: normal.map(|normal| normal.into_inner().into()),
-        bodies: bodies.collect(),
+        normal: contact.map(|contact| contact.normal_in_world.into_inner().into()),
+        bodies: scene.bodies().iter().zip(&states).map(|(b, s)| body_result(&b.name, s)).collect(),
         effects: Vec::new(),
         fit,
         phases: solved.phases.clone(),
@@ -86,46 +74,39 @@ fn world_vector(internal: &InternalScene, v: [f64; 3]) -> Vector3<f64> {
     internal.frame.vector_to_world(v.into())
 }
 
-fn states(scene: &Scene, internal: &InternalScene, solved: &Solved, index: usize) -> States {
-    let unknown = &solved.unknowns.bodies[index];
-    let mass = if index == 0 { 1.0 } else { solved.unknowns.mass_ratio };
-    let orientation = from_wxyz(unknown.orientation);
-    let pose = RigidBody {
-        position_in_world: world_vector(internal, unknown.position),
-        world_from_body: internal.frame.orientation_to_world(&orientation),
-        ..RigidBody::solid(&scene.bodies()[index].shape, mass)
-    };
-    let moving = |flight: &PaperFlight| RigidBody {
-        velocity_in_world: collision_velocity(internal, solved, flight),
-        angular_momentum_in_world: world_vector(internal, flight.angular_momentum),
-        ..pose
-    };
-    States { before: moving(&unknown.before), after: moving(&unknown.after) }
-}
-
-/// v(t_c) = fps R (b₃, b₂, 0) (SMASH eq. 7, in the order of its eq. 5).
-fn collision_velocity(
+/// Where and along which normal the bodies touched; `None` without an impulse.
+fn contact(
+    scene: &Scene,
     internal: &InternalScene,
     solved: &Solved,
-    flight: &PaperFlight,
-) -> Vector3<f64> {
-    let [b2, b3, azimuth] = flight.parabola;
-    let [tilt, heading] = solved.unknowns.tilt;
-    let turn = |axis, angle| nalgebra::UnitQuaternion::from_axis_angle(&axis, angle);
-    let rotation = turn(Vector3::y_axis(), heading)
-        * turn(Vector3::x_axis(), tilt)
-        * turn(Vector3::y_axis(), azimuth);
-    let per_frame = rotation * Vector3::new(b3, b2, 0.0);
-    internal.frame.vector_to_world(per_frame * internal.paper.frames_per_second)
+    states: &[States],
+    impulse: &Vector3<f64>,
+) -> Option<Contact> {
+    let normal = match scene.plane() {
+        Some(plane) => Some(plane.normal_in_world),
+        None => UnitVector3::try_new(*impulse, f64::MIN_POSITIVE),
+    };
+    let point = world_vector(internal, solved.unknowns.contact_point);
+    normal.map(|normal| Contact {
+        point_in_world: settle_on_line(scene, states, point, impulse),
+        normal_in_world: normal,
+    })
 }
 
-fn restitution(contact: Option<Contact>, states: &[States], on_plane: bool) -> Estimate {
-    if states.len() == 1 && !on_plane {
+/// A jump in spin tells the line of action; else only that of balls, which passes their centres.
+fn tells_contact_point(internal: &InternalScene, states: &[States]) -> bool {
+    internal.paper.bodies.iter().any(|body| body.has_spin)
+        || states.iter().all(States::surface_velocity_known)
+}
+
+fn restitution(scene: &Scene, contact: Option<Contact>, states: &[States], push: Push) -> Estimate {
+    if states.len() == 1 && scene.plane().is_none() {
         return unknown(NO_PARTNER);
     }
-    let Some(contact) = contact else {
-        return unknown(NO_IMPULSE);
-    };
+    let Some(contact) = contact.filter(|_| push.any) else { return unknown(NO_IMPULSE) };
+    if !states.iter().all(States::surface_velocity_known) {
+        return unknown(NO_SURFACE);
+    }
     let partner = states.get(1);
     let value = contact.restitution(
         (&states[0].before, partner.map(|b| &b.before)),
@@ -134,58 +115,21 @@ fn restitution(contact: Option<Contact>, states: &[States], on_plane: bool) -> E
     if value.is_finite() { estimate(value) } else { unknown(NO_APPROACH) }
 }
 
-fn flags(solved: &Solved, pushed: bool, states: &[States], c: &Estimate, poor: bool) -> Vec<Flag> {
-    let two_bodies = states.len() == 2;
-    let out_of_range = c.value.is_some_and(|c| !(0.0..=1.0).contains(&c));
-    [
-        (two_bodies && mass_ratio_at_bound(solved.unknowns.mass_ratio), Flag::MassRatioAtBound),
-        (out_of_range, Flag::RestitutionOutOfRange),
-        (!solved.converged, Flag::NotConverged),
-        (two_bodies && !pushed, Flag::MassRatioUnidentifiable),
-        (poor, Flag::PoorFit),
-    ]
-    .into_iter()
-    .filter_map(|(raised, flag)| raised.then_some(flag))
-    .collect()
-}
-
-fn shortest_extent_m(scene: &Scene) -> f64 {
-    let extent = |shape: &Shape| match *shape {
-        Shape::Box { size: [x, y, z] } => x.min(y).min(z),
-        Shape::Sphere { radius } => 2.0 * radius,
-    };
-    scene.bodies().iter().map(|body| extent(&body.shape)).fold(f64::INFINITY, f64::min)
-}
-
-fn body_result(
-    scene: &Scene,
-    internal: &InternalScene,
-    solved: &Solved,
-    index: usize,
-    states: &States,
-) -> BodyResult {
-    let observations = &internal.paper.bodies[index].observations;
-    let seen = |before: bool| {
-        let on_side = |o: &&PaperObservation| (o.time_frames < solved.collision_frames) == before;
-        observations.iter().filter(on_side).filter(|o| o.has_orientation).count()
-    };
-    let (seen_before, seen_after) = (seen(true), seen(false));
-    // Two orientations tell a flight's spin; one does where the other side gives the pose at t_c.
-    let spin_before_known = seen_before >= 2 || (seen_before == 1 && seen_after >= 2);
-    let spin_after_known = seen_after >= 2 || (seen_after == 1 && seen_before >= 2);
-    let pose_known = spin_before_known || spin_after_known;
-    let vector = |known: bool, v: Vector3<f64>| known.then(|| v.into());
+fn body_result(name: &str, states: &States) -> BodyResult {
+    let States { before, after, spin_before_known, spin_after_known, .. } = states;
+    let if_known = |known: &bool, v: Vector3<f64>| known.then(|| v.into());
+    let pose_known = *spin_before_known || *spin_after_known;
     BodyResult {
-        name: scene.bodies()[index].name.clone(),
-        position: states.before.position_in_world.into(),
-        orientation: pose_known.then(|| to_wxyz(&states.before.world_from_body)),
-        velocity_before: states.before.velocity_in_world.into(),
-        velocity_after: states.after.velocity_in_world.into(),
-        angular_velocity_before: vector(spin_before_known, states.before.omega_in_world()),
-        angular_velocity_after: vector(spin_after_known, states.after.omega_in_world()),
-        angular_momentum_before: vector(spin_before_known, states.before.angular_momentum_in_world),
-        angular_momentum_after: vector(spin_after_known, states.after.angular_momentum_in_world),
-        reason: (!(spin_before_known && spin_after_known)).then(|| NO_SPIN.to_string()),
+        name: name.to_string(),
+        position: before.position_in_world.into(),
+        orientation: pose_known.then(|| to_wxyz(&before.world_from_body)),
+        velocity_before: before.velocity_in_world.into(),
+        velocity_after: after.velocity_in_world.into(),
+        angular_velocity_before: if_known(spin_before_known, before.omega_in_world()),
+        angular_velocity_after: if_known(spin_after_known, after.omega_in_world()),
+        angular_momentum_before: if_known(spin_before_known, before.angular_momentum_in_world),
+        angular_momentum_after: if_known(spin_after_known, after.angular_momentum_in_world),
+        reason: (!(*spin_before_known && *spin_after_known)).then(|| NO_SPIN.to_string()),
     }
 }
 

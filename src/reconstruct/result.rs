@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Flag;
+use std::collections::BTreeMap;
+
+use super::{Flag, SegmentCriterion};
 
 /// The value of a result file's field `schema`.
 pub const RESULT_SCHEMA: &str = "smash.result/1";
@@ -17,19 +19,19 @@ pub struct Reconstruction {
     pub schema: String,
     /// The scene's name.
     pub scene: String,
-    /// The method: `paper`.
-    pub preset: String,
-    /// What chose the segment: `distance` or `cost`.
-    pub segment_by: String,
+    /// The method.
+    pub preset: Preset,
+    /// What chose the segment.
+    pub segment_by: SegmentCriterion,
     /// m_b / m_a; null without a second dynamic body.
     pub mass_ratio: Option<Estimate>,
     /// c = −(relative normal velocity after) / (before), SMASH eq. 15.
     pub restitution: Estimate,
     /// t_c in s.
     pub collision_time: Estimate,
-    /// x_c in m. Along the impulse it isn't determined: every point of that line explains the
-    /// poses equally well.
-    pub contact_point: [f64; 3],
+    /// x_c in m. Along the impulse it isn't determined; this is the point of that line on the
+    /// plane, or nearest to the middle between the centres. Null where no spin tells the line.
+    pub contact_point: Option<[f64; 3]>,
     /// J on the reference body per unit of its mass, in N·s/kg; −J acts on the other.
     pub impulse: [f64; 3],
     /// Unit: J/|J| between two bodies, the plane's on a static one; null without an impulse.
@@ -46,6 +48,15 @@ pub struct Reconstruction {
     pub flags: Vec<Flag>,
     /// What looked odd in the scene.
     pub warnings: Vec<String>,
+}
+
+/// How a scene is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Preset {
+    /// The SMASH paper's energy.
+    Paper,
 }
 
 /// A number and how sure it is.
@@ -67,6 +78,22 @@ pub struct Effect {
     pub name: String,
     /// The body that it acts on; null for all.
     pub body: Option<String>,
+    /// Its parameters by name.
+    pub parameters: BTreeMap<String, Parameter>,
+}
+
+/// A parameter of an effect.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Parameter {
+    /// The estimate; null where the data don't determine it.
+    pub value: Option<f64>,
+    /// One standard deviation; null where it can't be computed.
+    pub std: Option<f64>,
+    /// Of the value.
+    pub unit: String,
+    /// Why `value` or `std` is null.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// A body at the moment of the collision.

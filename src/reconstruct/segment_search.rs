@@ -19,26 +19,22 @@ pub(super) struct SolvedSegment {
     pub(super) seconds: f64,
 }
 
-/// Solves phase 1 with the collision in the middle of every segment, and keeps the best by the
-/// chosen criterion; the earlier of equals.
+/// Solves phase 1 with the collision at each of `collision_frames`, the segments' middles, and keeps
+/// the best by the chosen criterion; the earlier of equals.
 ///
 /// # Errors
 /// No segment has a usable solution.
 pub(super) fn search(
     scene: &PaperScene,
+    collision_frames: &[f64],
     options: &Options,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<SolvedSegment> {
-    let mut midpoints = segment_midpoints(scene);
-    if options.segment_by == SegmentCriterion::Cost {
-        // A single pose on a side fits any parabola at no cost.
-        midpoints.retain(|&midpoint| leaves_two_poses_a_side(scene, midpoint));
-    }
-    let segments = midpoints.len();
-    let solved: Vec<Result<SolvedSegment>> = midpoints
-        .into_par_iter()
+    let segments = collision_frames.len();
+    let solved: Vec<Result<SolvedSegment>> = collision_frames
+        .par_iter()
         .enumerate()
-        .map(|(index, collision_frames)| {
+        .map(|(index, &collision_frames)| {
             let segment = solve_segment(scene, collision_frames, options.seed)?;
             let stage = Stage::Segment { number: index + 1, of: segments };
             progress(Progress { stage, cost: segment.solution.cost_final });
@@ -63,22 +59,6 @@ pub(super) fn search(
         (None, Some(error)) => Err(error),
         (None, None) => Err(Error::new(ErrorKind::Solve, "there is no segment to search")),
     }
-}
-
-/// The middle of each pair of consecutive times of all observations, in frames.
-fn segment_midpoints(scene: &PaperScene) -> Vec<f64> {
-    let observations = scene.bodies.iter().flat_map(|body| &body.observations);
-    let mut times: Vec<f64> = observations.map(|o| o.time_frames).collect();
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    times.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect()
-}
-
-fn leaves_two_poses_a_side(scene: &PaperScene, midpoint: f64) -> bool {
-    scene.bodies.iter().all(|body| {
-        let before = body.observations.partition_point(|o| o.time_frames < midpoint);
-        before >= 2 && body.observations.len() - before >= 2
-    })
 }
 
 fn solve_segment(scene: &PaperScene, collision_frames: f64, seed: u64) -> Result<SolvedSegment> {

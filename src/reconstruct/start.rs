@@ -101,3 +101,65 @@ fn neighbours(times: &[f64], time: f64) -> (usize, usize) {
 fn share(first: f64, second: f64, time: f64) -> f64 {
     ((time - first) / (second - first)).clamp(0.0, 1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bridge::ffi::PaperObservation;
+
+    /// A unit cube seen at frames 0 and 10 of 10 a second, a metre along x and a quarter turn
+    /// about y on.
+    fn scene() -> PaperScene {
+        let quarter = std::f64::consts::FRAC_PI_4;
+        let seen = |time_frames, x, orientation| PaperObservation {
+            time_frames,
+            position: [x, 0.0, 0.0],
+            orientation,
+            has_orientation: true,
+        };
+        let observations = vec![
+            seen(0.0, 0.0, [1.0, 0.0, 0.0, 0.0]),
+            seen(10.0, 1.0, [quarter.cos(), 0.0, quarter.sin(), 0.0]),
+        ];
+        PaperScene {
+            frames_per_second: 10.0,
+            gravity_m_s2: 9.81,
+            bodies: vec![PaperBody {
+                inertia_per_mass: [1.0 / 6.0; 3],
+                observations,
+                has_spin: true,
+            }],
+            plane_normal: [0.0, -1.0, 0.0],
+            plane_height_m: 2.0,
+        }
+    }
+
+    /// SMASH section 4.1, by hand.
+    #[test]
+    fn the_start_is_the_papers() {
+        let start = start_values(&scene(), 3.0, 0);
+        let body = &start.bodies[0];
+        let flight = [-0.05, 0.1, 20.0_f64.to_radians()];
+        assert_eq!((body.before.parabola, body.after.parabola), (flight, flight));
+        assert_eq!(body.before, body.after);
+        assert_eq!((start.mass_ratio, start.tilt), (1.0, [0.0, 0.0]));
+        // Three tenths of the way, of the turn, and a quarter turn in a second: π/2 rad/s.
+        assert!((Vector3::from(body.position) - Vector3::new(0.3, 0.0, 0.0)).norm() < 1e-15);
+        let turn = from_wxyz(body.orientation).scaled_axis();
+        let quarter_turn = std::f64::consts::FRAC_PI_2;
+        assert!((turn - Vector3::new(0.0, 0.3 * quarter_turn, 0.0)).norm() < 1e-15);
+        let k = Vector3::from(body.before.angular_momentum);
+        assert!((k - Vector3::new(0.0, quarter_turn / 6.0, 0.0)).norm() < 1e-15);
+        // The foot on the plane two metres along gravity's opposite.
+        assert!((Vector3::from(start.contact_point) - Vector3::new(0.3, -2.0, 0.0)).norm() < 1e-15);
+    }
+
+    /// "Random values around 0.1", the same for the same seed.
+    #[test]
+    fn the_impulse_is_random_around_a_tenth_and_seeded() {
+        let impulse = |seed| start_values(&scene(), 3.0, seed).impulse;
+        assert_eq!(impulse(5), impulse(5));
+        assert_ne!(impulse(5), impulse(6));
+        assert!(impulse(5).iter().all(|component| (0.05..0.15).contains(component)));
+    }
+}

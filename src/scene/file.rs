@@ -154,6 +154,16 @@ impl<'de> Deserialize<'de> for Shape {
     }
 }
 
+impl Shape {
+    /// The shortest edge, or the diameter, in m.
+    pub fn shortest_extent_m(&self) -> f64 {
+        match *self {
+            Shape::Box { size: [x, y, z] } => x.min(y).min(z),
+            Shape::Sphere { radius } => 2.0 * radius,
+        }
+    }
+}
+
 /// One annotated pose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

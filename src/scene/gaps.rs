@@ -29,6 +29,13 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// All gaps between consecutive times of all bodies' observations, in order of time.
+    pub(crate) fn all_gaps(&self) -> Vec<Gap> {
+        with_poses(&self.bodies, 0)
+    }
+}
+
 /// The gaps with `least` or more poses of each body on each side, in order of time.
 pub(super) fn with_poses(bodies: &[DynamicBody], least: usize) -> Vec<Gap> {
     let mut times: Vec<f64> =

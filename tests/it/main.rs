@@ -7,6 +7,7 @@
 mod bad_input;
 mod collision;
 mod docs;
+mod doubts;
 mod examples;
 mod free_rotation;
 mod import;

@@ -6,6 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::{Value, json};
 use smash::Reconstruction;
+use smash::reconstruct::{Preset, SegmentCriterion};
 use tempfile::TempDir;
 
 use crate::scenes::{edited, two_boxes};
@@ -118,14 +119,14 @@ fn an_existing_output_is_replaced_whole() {
 fn presets_and_criteria_choose_the_segment() {
     let folder = folder_with(&two_boxes());
     for (options, criterion) in [
-        (&[][..], "cost"),
-        (&["--preset", "paper"], "distance"),
-        (&["--preset", "paper", "--segment-by", "cost"], "cost"),
-        (&["--segment-by", "distance"], "distance"),
+        (&[][..], SegmentCriterion::Cost),
+        (&["--preset", "paper"], SegmentCriterion::Distance),
+        (&["--preset", "paper", "--segment-by", "cost"], SegmentCriterion::Cost),
+        (&["--segment-by", "distance"], SegmentCriterion::Distance),
     ] {
         let arguments = [&["scene.json", "--json"], options].concat();
         let result = result(&quiet_success(run(&folder, &arguments)));
-        assert_eq!(result.preset, "paper", "{options:?}");
+        assert_eq!(result.preset, Preset::Paper, "{options:?}");
         assert_eq!(result.segment_by, criterion, "{options:?}");
     }
 }
