@@ -19,6 +19,9 @@ mod json;
 mod schema;
 mod words;
 
+/// The vectors, quaternions and matrices in this crate's signatures are of this version.
+pub use nalgebra;
+
 pub use error::{Error, ErrorKind, Result};
 pub use reconstruct::{Options, Reconstruction, reconstruct, reconstruct_with_progress};
 pub use scene::Scene;

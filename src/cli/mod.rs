@@ -25,10 +25,10 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Reconstruct(reconstruct::Arguments),
-    Simulate(simulate::Arguments),
-    Doctor(doctor::Arguments),
     Import(import::Arguments),
+    Simulate(simulate::Arguments),
     Schema(schema::Arguments),
+    Doctor(doctor::Arguments),
 }
 
 /// Runs the command that was typed: exit code 0 done, 1 the input or the run is at fault,
@@ -37,10 +37,10 @@ pub fn main() -> ExitCode {
     smash::silence_solver_log();
     let outcome = match Arguments::parse().command {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
-        Command::Simulate(arguments) => simulate::run(&arguments),
-        Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

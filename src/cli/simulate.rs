@@ -78,6 +78,8 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
         NoiseSpec::Uniform(fraction) => {
             format!("uniform, {} % of each number, seed {}", 100.0 * fraction, spec.seed)
         }
+        // The library may learn others.
+        _ => format!("as specified, seed {}", spec.seed),
     };
     let scene = arguments.output.display();
     format!(

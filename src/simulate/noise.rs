@@ -12,6 +12,7 @@ use crate::scene::{Noise, ObservationFile, SceneFile};
 /// How observed poses differ from the true ones.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum NoiseSpec {
     /// Not at all.
     #[default]

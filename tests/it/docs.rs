@@ -1,7 +1,8 @@
 //! What the documents claim is true: their paths exist, their commands run.
 //!
 //! Conventions for writers: an `sh` block is run, from a folder that looks like the repository's
-//! root; a `console` block (lines that start with `$ `) is only for the reader, as is `text`.
+//! root, and prints the numbers of the `text` block that follows, if one does before the next `sh`.
+//! A `console` block (lines that start with `$ `) is only for the reader, as is any other `text`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,10 +21,16 @@ struct Document {
     code: Vec<String>,
     /// Targets of links and pictures.
     links: Vec<String>,
-    /// The text of `sh` blocks.
-    scripts: Vec<String>,
+    scripts: Vec<Script>,
     /// Commands at the prompts of `console` blocks.
     prompts: Vec<String>,
+}
+
+/// An `sh` block.
+struct Script {
+    text: String,
+    /// What it prints, says the document.
+    output: Option<String>,
 }
 
 impl Document {
@@ -54,7 +61,12 @@ impl Document {
 
     fn add_block(&mut self, language: &str, content: String) {
         match language {
-            "sh" => self.scripts.push(content),
+            "sh" => self.scripts.push(Script { text: content, output: None }),
+            "text" => {
+                if let Some(script) = self.scripts.last_mut() {
+                    script.output.get_or_insert(content);
+                }
+            }
             "console" => {
                 let prompts = content.lines().filter_map(|line| line.strip_prefix("$ "));
                 self.prompts.extend(prompts.map(str::to_owned));
@@ -135,31 +147,53 @@ fn every_command_named_in_the_documents_exists() {
 }
 
 #[test]
-fn every_script_in_the_documents_runs() {
-    let mut scripts = 0;
+fn every_script_in_the_documents_runs_and_prints_the_numbers_shown() {
+    let mut shown = 0;
     for document in documents() {
         // Outputs land here, beside links to all that the repository holds.
         let folder = tempfile::tempdir().unwrap();
         for entry in fs::read_dir(ROOT).unwrap() {
             let entry = entry.unwrap();
-            if entry.file_name() != "target" && entry.file_name() != "result.json" {
+            let is_output = entry.path().extension().is_some_and(|e| e == "json");
+            if entry.file_name() != "target" && !is_output {
                 std::os::unix::fs::symlink(entry.path(), folder.path().join(entry.file_name()))
                     .unwrap();
             }
         }
         for script in &document.scripts {
-            scripts += 1;
             let output = Command::new("bash")
-                .args(["-euo", "pipefail", "-c", script])
+                .args(["-euo", "pipefail", "-c", &script.text])
                 .current_dir(folder.path())
                 .env("PATH", path_with_smash())
                 .output()
                 .unwrap();
             let errors = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{}:\n{script}\n{errors}", document.name);
+            let place = format!("{}:\n{}", document.name, script.text);
+            assert!(output.status.success(), "{place}\n{errors}");
+            if let Some(claimed) = &script.output {
+                shown += 1;
+                assert_same_numbers(claimed, &String::from_utf8_lossy(&output.stdout), &place);
+            }
         }
     }
-    assert!(scripts > 0, "the README shows a session");
+    assert!(shown > 0, "the README shows a session");
+}
+
+/// Asserts that the numbers in the two texts agree to three digits; words may differ. Three are
+/// what a reader compares, and more than another version of Ceres or compiler would change.
+fn assert_same_numbers(claimed: &str, printed: &str, place: &str) {
+    let (claims, prints) = (numbers(claimed), numbers(printed));
+    let is_same = |(claim, print): (&f64, &f64)| {
+        // Small numbers are printed with three decimals: there the last one counts.
+        (claim - print).abs() <= (5e-3 * print.abs()).max(1.1e-3)
+    };
+    let agree = claims.len() == prints.len() && claims.iter().zip(&prints).all(is_same);
+    assert!(agree, "{place}\nprints\n{printed}\nbut the document says\n{claimed}");
+}
+
+fn numbers(text: &str) -> Vec<f64> {
+    let words = text.split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'));
+    words.filter_map(|word| word.trim_end_matches('.').parse().ok()).collect()
 }
 
 fn path_with_smash() -> std::ffi::OsString {

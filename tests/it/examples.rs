@@ -1,17 +1,23 @@
 //! The examples run, and print what their first lines promise.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::Command;
 
-/// Cargo builds the examples beside the tests.
+/// By `cargo run`, as a reader would: `cargo test --test it` doesn't build the examples, and an
+/// old build of one would prove nothing. Cargo locks its folder only while it builds, so this
+/// doesn't wait for the `cargo test` around it, and finds built what that built in this profile.
 fn run(name: &str, arguments: &[&str]) -> String {
-    let tests: PathBuf = std::env::current_exe().unwrap().parent().unwrap().into();
-    let program = tests.parent().unwrap().join("examples").join(name);
-    let output = Command::new(&program)
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    let profile = if cfg!(debug_assertions) { "dev" } else { "release" };
+    let output = Command::new(env!("CARGO"))
+        .args(["run", "--quiet", "--locked", "--profile", profile, "--example", name])
+        .arg("--target-dir")
+        .arg(target)
+        .arg("--")
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
-        .unwrap_or_else(|error| panic!("{}: {error}", program.display()));
+        .unwrap();
     assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
