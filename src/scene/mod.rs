@@ -6,7 +6,7 @@
 pub(crate) mod body;
 pub(crate) mod bounds;
 mod check;
-mod file;
+pub(crate) mod file;
 mod gaps;
 mod order;
 mod read;

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::scene::bounds::MOST_OBSERVATIONS;
 use crate::scene::{ObservationFile, SceneFile};
 
 /// When a body is seen.
@@ -44,21 +45,27 @@ impl RegularSampling {
 
     /// The frame numbers, in order, for a collision at `collision_frame` (rarely a whole number).
     ///
+    /// No more than 100 000 on each side, those nearest the collision: no scene holds more.
+    ///
     /// Of 90 frames with an interval of 19 and a collision at frame 45: 7, 26, 64 and 83.
     pub fn frame_numbers(&self, collision_frame: f64) -> Vec<u32> {
-        let interval = i64::from(self.interval.max(1));
-        let gap = i64::from(self.gap.unwrap_or(self.interval.saturating_mul(2)));
+        let interval = self.interval.max(1) as usize;
+        let gap = self.gap.unwrap_or(self.interval.saturating_mul(2));
         // A collision far off the film saturates, which leaves one side empty.
-        let last_before = (collision_frame - gap as f64 / 2.0).round() as i64;
-        let first_after = last_before.saturating_add(gap);
-        let is_seen = |frame: &u32| {
-            let frame = i64::from(*frame);
-            let to_before = last_before.saturating_sub(frame);
-            let from_after = frame.saturating_sub(first_after);
-            (to_before >= 0 && to_before % interval == 0)
-                || (from_after >= 0 && from_after % interval == 0)
-        };
-        (0..self.frame_count).filter(is_seen).collect()
+        let last_before = (collision_frame - f64::from(gap) / 2.0).round() as i64;
+        let first_after = last_before.saturating_add(i64::from(gap));
+        let last_frame = i64::from(self.frame_count) - 1;
+        // Frames off the film are stepped over, not walked through.
+        let on_film = |excess: i64| (excess.max(0) as u64).next_multiple_of(interval as u64) as i64;
+        let latest = last_before.saturating_sub(on_film(last_before.saturating_sub(last_frame)));
+        let earliest = first_after.saturating_add(on_film(first_after.saturating_neg()));
+        let before = (0..=latest).rev().step_by(interval).take(MOST_OBSERVATIONS);
+        let after = (earliest..=last_frame).step_by(interval).take(MOST_OBSERVATIONS);
+        let mut frames: Vec<u32> = before.chain(after).map(|frame| frame as u32).collect();
+        frames.sort_unstable();
+        // Without a gap both sides hold the frame between them.
+        frames.dedup();
+        frames
     }
 }
 
