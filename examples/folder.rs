@@ -40,7 +40,7 @@ fn scenes_in(folder: &Path) -> Result<Vec<Scene>> {
         path.extension().is_some_and(|e| e == "json")
             && !path.to_string_lossy().ends_with(".spec.json")
     };
-    paths.iter().filter(is_scene).map(|path| Scene::read(path)).collect()
+    paths.iter().filter(is_scene).map(Scene::read).collect()
 }
 
 fn row(result: &Reconstruction) -> String {

@@ -1,6 +1,7 @@
 //! Reading and writing whole files: an output appears complete or not at all.
 
 mod output;
+mod place;
 
 pub use output::{Output, check_distinct, write_together};
 

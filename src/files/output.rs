@@ -1,11 +1,12 @@
 //! Places to write to: what was there before stays until all of the new is there.
 
-use std::fs::{self, File, Metadata};
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use super::place::{folder_of, is_same_file, resolved};
 use super::{plain, print_bytes};
 use crate::{Error, ErrorKind, Result};
 
@@ -183,47 +184,6 @@ fn beside(target: &Path) -> io::Result<NamedTempFile> {
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder_of(target))
-}
-
-fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
-}
-
-/// Where a write to `path` ends: links are followed, also to a file that isn't there yet.
-fn resolved(path: &Path) -> io::Result<PathBuf> {
-    match (fs::canonicalize(path), fs::read_link(path)) {
-        (Err(error), Ok(link)) if error.kind() == io::ErrorKind::NotFound => {
-            resolved(&folder_of(path).join(link))
-        }
-        (Err(error), Err(_)) if error.kind() == io::ErrorKind::NotFound => {
-            let name = path.file_name().ok_or(error)?;
-            Ok(fs::canonicalize(folder_of(path))?.join(name))
-        }
-        (found, _) => found,
-    }
-}
-
-/// Whether two paths lead to one file: by links of either kind, or by another spelling.
-fn is_same_file(one: &Path, other: &Path) -> bool {
-    match (fs::metadata(one), fs::metadata(other)) {
-        (Ok(of_one), Ok(of_other)) if cfg!(unix) => identity(&of_one) == identity(&of_other),
-        _ => matches!((resolved(one), resolved(other)), (Ok(one), Ok(other)) if one == other),
-    }
-}
-
-/// What tells a file from all others: its device and its number there.
-#[cfg(unix)]
-fn identity(meta: &Metadata) -> Option<(u64, u64)> {
-    use std::os::unix::fs::MetadataExt;
-    Some((meta.dev(), meta.ino()))
-}
-
-#[cfg(not(unix))]
-fn identity(_: &Metadata) -> Option<(u64, u64)> {
-    None
 }
 
 /// The error for an output at `path`; only a file has a `target`.

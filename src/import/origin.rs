@@ -13,12 +13,27 @@ pub(super) struct Origin {
 }
 
 impl Import {
-    /// Checks the rules of the scene.
+    /// Checks the rules of the scene; warnings too name the table's lines.
     ///
     /// # Errors
     /// The first broken rule, with the table's line or the option of `smash import` at fault.
     pub fn check(&self) -> Result<Scene> {
-        Scene::from_file(self.scene_file.clone()).map_err(|error| self.traced(error))
+        let checked = Scene::from_file(self.scene_file.clone());
+        let mut scene = checked.map_err(|error| self.traced(error))?;
+        scene.retell_warnings(|text| self.retold(text));
+        Ok(scene)
+    }
+
+    /// A warning with the table's line for an observation's place.
+    fn retold(&self, text: &str) -> String {
+        let place = text.find("bodies[").map(|start| text.split_at(start));
+        let found = place.and_then(|(before, place)| Some((before, self.origin_of(place)?)));
+        match found {
+            Some((before, (origin, after))) => {
+                format!("{before}line {} of {}{after}", origin.line, origin.file)
+            }
+            None => text.to_owned(),
+        }
     }
 
     fn traced(&self, error: Error) -> Error {

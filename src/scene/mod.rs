@@ -124,6 +124,13 @@ impl Scene {
         self.plane.as_ref()
     }
 
+    /// Puts the warnings in the terms of what the scene was made of.
+    pub(crate) fn retell_warnings(&mut self, retold: impl Fn(&str) -> String) {
+        for warning in &mut self.warnings {
+            warning.text = retold(&warning.text);
+        }
+    }
+
     /// What looked odd when the scene was read.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings

@@ -192,3 +192,13 @@ fn rules_of_the_scene_point_to_the_table_or_the_option() {
         assert!(found.starts_with(place), "{place} isn't in {found}");
     }
 }
+
+#[test]
+fn warnings_point_to_the_table() {
+    let text = "time,x,y,z\r\n0,0,0,1\r\n2,0,0,1\r\n1,0,0,1\r\n3,0,0,1\r\n4,0,0,1\r\n";
+    let import = import_csv(&[Table { file: "poses.csv", text }], &options()).unwrap();
+    let warnings = import.check().unwrap().warnings().to_vec();
+    let is_named = |text: &str| text.contains("line 4 of poses.csv is earlier");
+    assert!(warnings.iter().any(|warning| is_named(&warning.text)), "{warnings:?}");
+    assert!(warnings.iter().all(|warning| !warning.text.contains("bodies[")), "{warnings:?}");
+}

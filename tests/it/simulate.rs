@@ -477,6 +477,8 @@ fn frames_of_endless_films_are_bounded() {
         let frames = endless.frame_numbers(off_film);
         assert_eq!((frames.len(), frames.last()), (100_000, Some(&(u32::MAX - 1))));
     }
+    let sparse = RegularSampling { interval: 7, frame_count: 49, gap: None };
+    assert_eq!(sparse.frame_numbers(f64::INFINITY).len(), 7, "one every 7 frames of 49");
     for off_film in [-1e300, f64::NEG_INFINITY] {
         assert_eq!(endless.frame_numbers(off_film).first(), Some(&0));
     }
