@@ -24,7 +24,7 @@ impl Import {
         Ok(scene)
     }
 
-    /// A warning with the table's line for an observation's place.
+    /// A text with the table's line for an observation's place.
     fn retold(&self, text: &str) -> String {
         let place = text.find("bodies[").map(|start| text.split_at(start));
         let found = place.and_then(|(before, place)| Some((before, self.origin_of(place)?)));
@@ -44,7 +44,8 @@ impl Import {
                 "" => line,
                 column => format!("{line}, {column}"),
             };
-            return error.at(place).in_file(&*origin.file);
+            let problem = self.retold(error.problem());
+            return error.problem_in_words(problem).at(place).in_file(&*origin.file);
         }
         match self.option_of(&place) {
             Some(option) => error.at(option),

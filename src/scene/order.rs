@@ -31,20 +31,21 @@ pub(super) fn sorted(
         });
         numbered.sort_by(|one, other| one.1.time_s.total_cmp(&other.1.time_s));
     }
-    let mut kept: Vec<Observation> = Vec::with_capacity(numbered.len());
+    let mut kept: Vec<(usize, Observation)> = Vec::with_capacity(numbered.len());
     let mut repeated = Vec::new();
     for (index, observation) in numbered {
         match kept.last() {
-            Some(last) if observation.time_s - last.time_s < SAME_TIME_S => {
+            Some((first, last)) if observation.time_s - last.time_s < SAME_TIME_S => {
                 if !is_same_pose(last, &observation) {
                     let at = format!("{place}[{index}]");
                     let time = observation.time_s;
-                    let problem = format!("is another pose at the same time, {time} s");
+                    let problem =
+                        format!("has the time of {place}[{first}], {time} s, but another pose");
                     return Err(Error::invalid(at, problem).mend("keep the right one of the two"));
                 }
                 repeated.push(index);
             }
-            _ => kept.push(observation),
+            _ => kept.push((index, observation)),
         }
     }
     if let Some(index) = repeated.first() {
@@ -58,14 +59,14 @@ pub(super) fn sorted(
         });
     }
     if let (Some(first), Some(last)) = (kept.first(), kept.last()) {
-        let span = last.time_s - first.time_s;
+        let span = last.1.time_s - first.1.time_s;
         if span > LONGEST_SPAN_S {
             let problem = format!("span {span:.6e} s, more than a day");
             return Err(Error::invalid(place, problem)
                 .mend("check `fps` and the times; keep the poses around the collision"));
         }
     }
-    Ok(kept)
+    Ok(kept.into_iter().map(|(_, observation)| observation).collect())
 }
 
 fn is_same_pose(one: &Observation, other: &Observation) -> bool {

@@ -183,7 +183,10 @@ fn rules_of_the_scene_point_to_the_table_or_the_option() {
             refused(&text.replace("2,0,0,1,1", "2,0,0,1,3"), &good),
             "poses.csv: line 4, the quaternion: ",
         ),
-        (refused(&text.replace("2,0,0,1,1", "1,0,0,2,1"), &good), "poses.csv: line 4: "),
+        (
+            refused(&text.replace("2,0,0,1,1", "1,0,0,2,1"), &good),
+            "poses.csv: line 4: has the time of line 3 of poses.csv, 1 s",
+        ),
         (refused(&text.replace("2,0,0", "2e11,0,0"), &good), "poses.csv: line 4, time: "),
         (refused(text, &ImportOptions { gravity_m_s2: -9.81, ..good.clone() }), "--gravity: "),
         (refused(text, &ImportOptions { up: [0.0, 0.0, 2.0], ..good.clone() }), "--up: "),
