@@ -66,6 +66,13 @@ impl Error {
         self
     }
 
+    /// Says the problem in other words.
+    #[must_use]
+    pub(crate) fn problem_in_words(mut self, problem: String) -> Self {
+        self.problem = problem;
+        self
+    }
+
     /// The class of this error.
     pub fn kind(&self) -> ErrorKind {
         self.kind

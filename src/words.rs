@@ -47,3 +47,23 @@ fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
 pub(crate) fn listed(words: &[&str]) -> String {
     words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
 }
+
+/// `count` with its noun: "1 pose", "2 poses".
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// `value` to six decimals, without zeros at the end.
+pub(crate) fn rounded(value: f64) -> String {
+    let text = format!("{value:.6}");
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "-0" => "0".into(),
+        short => short.into(),
+    }
+}
+
+/// A limit as people write it: powers of ten only where the zeros can't be counted at a glance.
+pub(crate) fn limit(value: f64) -> String {
+    let is_short = value == 0.0 || (1e-4..1e7).contains(&value.abs());
+    if is_short { value.to_string() } else { format!("{value:e}") }
+}

@@ -24,7 +24,7 @@ const LARGEST: f64 = 10.0;
 pub fn draw(scores: &[Score], file: &Path) -> Result<()> {
     let mut svg = String::new();
     draw_panels(scores, &mut svg).expect("drawing into a string can't fail");
-    Output::check(file)?.write(svg.as_bytes())
+    Output::check(file, &[])?.write(svg.as_bytes())
 }
 
 fn draw_panels(scores: &[Score], svg: &mut String) -> DrawResult {

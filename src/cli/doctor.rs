@@ -42,8 +42,8 @@ struct Dependency {
     /// What it is for: to build smash, or to check the style of its source.
     work: &'static str,
     purpose: String,
-    /// Where it was found; `None` when it is missing.
-    place: Option<PathBuf>,
+    /// Where it was found, in readable letters; `None` when it is missing.
+    place: Option<String>,
     /// What a program says of itself.
     version: Option<String>,
 }
@@ -123,15 +123,16 @@ impl Dependency {
         };
         let place = folders.iter().map(|folder| folder.join(name)).find(|path| path.exists());
         let version = if kind == "command" { place.as_deref().and_then(version_of) } else { None };
+        let place = place.map(|path| path.display().to_string());
         Dependency { package, work, purpose, place, version }
     }
 
     fn in_words(&self) -> String {
         match (&self.place, &self.version) {
             (None, _) => format!("  missing  {}: {}", self.package, self.purpose),
-            (Some(place), None) => format!("  found    {}: {}", self.package, place.display()),
+            (Some(place), None) => format!("  found    {}: {place}", self.package),
             (Some(place), Some(version)) => {
-                format!("  found    {}: {} ({version})", self.package, place.display())
+                format!("  found    {}: {place} ({version})", self.package)
             }
         }
     }

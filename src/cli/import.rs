@@ -25,13 +25,13 @@ pub struct Arguments {
     #[arg(long)]
     length_unit: LengthUnit,
     /// The direction against gravity: x, y, z, -x, -y, -z, or three numbers
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = parse_direction)]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = parse_up)]
     up: [f64; 3],
     /// Gravity in m/s²
-    #[arg(long, default_value_t = 9.81)]
+    #[arg(long, default_value_t = 9.81, allow_negative_numbers = true)]
     gravity: f64,
     /// Frames per second, for files with a column `frame`
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     fps: Option<f64>,
     /// The order of columns q0 to q3
     #[arg(long, value_name = "ORDER")]
@@ -58,17 +58,18 @@ pub struct Arguments {
 
 /// Writes the scene, and says what is in it.
 pub fn run(arguments: &Arguments) -> smash::Result<()> {
-    let output = Output::check(&arguments.output)?;
+    let inputs: Vec<&Path> = arguments.files.iter().map(PathBuf::as_path).collect();
+    let output = Output::check(&arguments.output, &inputs)?;
+    super::refuse_json_beside(&output, arguments.json)?;
     let mut texts = Vec::new();
     for path in &arguments.files {
         texts.push((display_name(path, "standard input"), read_text(path)?));
     }
     let tables: Vec<Table> = texts.iter().map(|(file, text)| Table { file, text }).collect();
-    let file = import_csv(&tables, &arguments.options())?;
-    let scene = Scene::from_file(file.clone())
-        .map_err(|error| error.in_file(format!("the scene of {}", texts[0].0)))?;
+    let import = import_csv(&tables, &arguments.options())?;
+    let scene = import.check()?;
     super::warn(scene.warnings());
-    output.write(file.to_json().as_bytes())?;
+    output.write(import.scene_file.to_json().as_bytes())?;
     if output.is_standard_output() {
         return Ok(());
     }
@@ -78,7 +79,8 @@ pub fn run(arguments: &Arguments) -> smash::Result<()> {
 impl Arguments {
     fn options(&self) -> ImportOptions {
         let plane = self.plane.map(|[x, y, z, height]| ([x, y, z], height));
-        let stem = self.files.first().and_then(|path| path.file_stem());
+        let first = self.files.first().filter(|path| *path != Path::new("-"));
+        let stem = first.and_then(|path| path.file_stem());
         let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
         ImportOptions {
             name: self.name.clone().or(stem).unwrap_or_default(),
@@ -108,13 +110,15 @@ fn summary(scene: &Scene, path: &Path, as_json: bool) -> String {
     format!("{}: {}\n", path.display(), bodies.collect::<Vec<_>>().join(", "))
 }
 
-fn parse_direction(text: &str) -> Result<[f64; 3], String> {
+fn parse_up(text: &str) -> Result<[f64; 3], String> {
     let (axis, sign) = text.strip_prefix('-').map_or((text, 1.0), |axis| (axis, -1.0));
     match axis {
         "x" => Ok([sign, 0.0, 0.0]),
         "y" => Ok([0.0, sign, 0.0]),
         "z" => Ok([0.0, 0.0, sign]),
-        _ => parse_numbers(text),
+        _ => parse_numbers(text).map_err(|problem| {
+            format!("{problem}; write x, y, z, -x, -y, -z, or three numbers such as 0,0,1")
+        }),
     }
 }
 
@@ -137,7 +141,10 @@ fn named(text: &str) -> Result<(String, &str), String> {
 fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers: Result<Vec<f64>, _> =
         text.split(',').map(|one| f64::from_str(one.trim())).collect();
-    let numbers = numbers.map_err(|_| "write numbers with commas between them".to_owned())?;
+    let numbers = numbers.map_err(|_| match N {
+        1 => "not a number".to_owned(),
+        _ => format!("not {N} numbers with commas between them"),
+    })?;
     let count = numbers.len();
-    numbers.try_into().map_err(|_| format!("{count} numbers, but {N} are needed"))
+    numbers.try_into().map_err(|_| format!("{N} needed, but {count} given"))
 }

@@ -12,7 +12,9 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use smash::files::Output;
 use smash::scene::Warning;
+use smash::{Error, ErrorKind};
 
 /// Reconstructs how two rigid bodies collided, from a few annotated poses.
 #[derive(Parser)]
@@ -58,4 +60,14 @@ fn warn(warnings: &[Warning]) {
         // A closed standard error leaves nobody to tell.
         let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
+}
+
+/// Standard output can't carry the file and, for `--json`, the words on it.
+fn refuse_json_beside(output: &Output, as_json: bool) -> smash::Result<()> {
+    if output.is_standard_output() && as_json {
+        return Err(Error::new(ErrorKind::Write, "carries the scene: `--json` has no place on it")
+            .in_file("(standard output)")
+            .mend("write the scene to a file, or leave `--json` out"));
+    }
+    Ok(())
 }

@@ -1,9 +1,9 @@
 //! `smash reconstruct`: the main job.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use smash::files::{Output, print_bytes};
+use smash::files::{Output, print_bytes, shell_word};
 use smash::reconstruct::{Options, SegmentCriterion, reconstruct_with_progress};
 use smash::{Reconstruction, Result, Scene};
 
@@ -59,21 +59,26 @@ impl Arguments {
 
     /// What is worth trying after `result`.
     fn next_steps(&self, scene: &Scene, result: &Reconstruction) -> Vec<String> {
-        let path = self.scene.display();
+        let path = shell_word(&self.scene.to_string_lossy());
+        // Standard input can't be read twice.
+        let is_file = self.scene != Path::new("-");
         let mut steps = Vec::new();
         let has_partner = scene.bodies().len() == 2 || scene.plane().is_some();
-        if result.segment_by == SegmentCriterion::Distance {
+        if is_file && result.segment_by == SegmentCriterion::Distance {
             steps.push(format!(
                 "smash reconstruct {path} --preset paper --segment-by cost    \
                  finds the right segment more often"
             ));
-        } else if has_partner {
+        } else if is_file && has_partner {
             steps.push(format!(
                 "smash reconstruct {path} --preset paper    the paper to the letter, to compare"
             ));
         }
         if !result.flags.is_empty() || !result.warnings.is_empty() {
-            steps.push("look at the poses nearest the collision, and at the warnings".to_string());
+            steps.push(
+                "look at the poses nearest the collision, and at the flags and warnings above"
+                    .to_string(),
+            );
         }
         steps
     }
@@ -81,7 +86,8 @@ impl Arguments {
 
 /// Reads, reconstructs, writes, tells.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let output = arguments.output.as_deref().map(Output::check).transpose()?;
+    let check = |path| Output::check(path, &[&arguments.scene]);
+    let output = arguments.output.as_deref().map(check).transpose()?;
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());
     let progress = ProgressLine::new();

@@ -20,5 +20,5 @@ pub struct Arguments {
 
 /// Writes the schema.
 pub fn run(arguments: &Arguments) -> smash::Result<()> {
-    Output::check(&arguments.output)?.write(schema(arguments.kind).as_bytes())
+    Output::check(&arguments.output, &[])?.write(schema(arguments.kind).as_bytes())
 }

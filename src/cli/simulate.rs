@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use smash::files::{Output, display_name, print_bytes};
+use smash::Result;
+use smash::files::{Output, check_distinct, display_name, print_bytes, shell_word, write_together};
 use smash::simulate::{NoiseSpec, Simulation, SimulationSpec, simulate};
-use smash::{Error, ErrorKind, Result};
 
 /// Makes a scene from bodies, their speeds and a collision, with sampling and noise
 #[derive(Args)]
@@ -19,7 +19,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     truth: Option<PathBuf>,
     /// Start of the noise's random numbers, in place of the specification's
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true, value_parser = parse_seed)]
     seed: Option<u64>,
     /// Print the truth as JSON instead of words
     #[arg(long)]
@@ -28,26 +28,23 @@ pub struct Arguments {
 
 /// Reads, simulates, writes, tells.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let output = Output::check(&arguments.output)?;
-    let truth_output = arguments.truth.as_deref().map(Output::check).transpose()?;
-    let on_standard_output =
-        |output: &Option<Output>| output.as_ref().is_some_and(Output::is_standard_output);
-    if output.is_standard_output() && on_standard_output(&truth_output) {
-        return Err(Error::new(ErrorKind::Write, "two files can't share it")
-            .in_file("(standard output)")
-            .mend("give the scene or the truth a file"));
+    let check = |path| Output::check(path, &[&arguments.spec]);
+    let output = check(&arguments.output)?;
+    let truth_output = arguments.truth.as_deref().map(check).transpose()?;
+    if let Some(truth_output) = &truth_output {
+        check_distinct(&output, truth_output)?;
     }
+    super::refuse_json_beside(&output, arguments.json)?;
     let mut spec = SimulationSpec::read(&arguments.spec)?;
     spec.seed = arguments.seed.unwrap_or(spec.seed);
     let simulation = simulate(&spec)
         .map_err(|error| error.in_file(display_name(&arguments.spec, "standard input")))?;
     super::warn(simulation.scene.warnings());
-    output.write(simulation.scene_file.to_json().as_bytes())?;
-    let truth = simulation.truth.to_json();
-    if let Some(truth_output) = &truth_output {
-        truth_output.write(truth.as_bytes())?;
-    }
-    if output.is_standard_output() || on_standard_output(&truth_output) {
+    let (scene, truth) = (simulation.scene_file.to_json(), simulation.truth.to_json());
+    let mut parts = vec![(&output, scene.as_bytes())];
+    parts.extend(truth_output.as_ref().map(|output| (output, truth.as_bytes())));
+    write_together(&parts)?;
+    if parts.iter().any(|(output, _)| output.is_standard_output()) {
         // It carries the data already.
         return Ok(());
     }
@@ -82,6 +79,7 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
         _ => format!("as specified, seed {}", spec.seed),
     };
     let scene = arguments.output.display();
+    let word = shell_word(&arguments.output.to_string_lossy());
     format!(
         "{name}\n\n\
          \x20 mass ratio m_b/m_a   {mass_ratio}\n\
@@ -91,9 +89,13 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
          \x20 seen                 {}\n\
          \x20 noise                {noise}\n\n\
          Written: {scene}\n\
-         Next:    smash reconstruct {scene}\n",
+         Next:    smash reconstruct {word}\n",
         truth.restitution,
         truth.collision_time,
         seen.collect::<Vec<_>>().join(", "),
     )
+}
+
+fn parse_seed(text: &str) -> std::result::Result<u64, String> {
+    text.parse().map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
 }

@@ -9,6 +9,9 @@ const POSITION: [&str; 3] = ["x", "y", "z"];
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
 const UNNAMED_QUATERNION: [&str; 4] = ["q0", "q1", "q2", "q3"];
 
+/// Far more than two bodies need; the checks compare each column with each.
+const MOST_COLUMNS: usize = 1000;
+
 /// Where to find what in a row.
 pub(super) struct Columns {
     pub time: usize,
@@ -104,6 +107,10 @@ fn check_names(header: &[String]) -> Result<()> {
     {
         let mend = "save it with commas between the columns and points in the numbers";
         return Err(wrong("has a single column: it isn't separated by commas", mend));
+    }
+    if header.len() > MOST_COLUMNS {
+        let problem = format!("has {} columns", header.len());
+        return Err(wrong(problem, "keep those of frame or time, body, position and quaternion"));
     }
     for (index, column) in header.iter().enumerate() {
         if header[..index].contains(column) {

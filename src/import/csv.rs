@@ -3,8 +3,15 @@
 use super::columns::{Columns, Group};
 use super::{ImportOptions, Table};
 use crate::scene::ObservationFile;
-use crate::words::quoted;
+use crate::words::{counted, quoted};
 use crate::{Error, ErrorKind, Result};
+
+/// A body's pose in a table.
+pub(super) struct Pose {
+    pub body: String,
+    pub line: usize,
+    pub observation: ObservationFile,
+}
 
 /// The poses of all bodies of a table, row by row, in the table's unit of length; bodies that
 /// neither row nor column names are called `default_name`.
@@ -12,32 +19,40 @@ pub(super) fn read(
     table: &Table<'_>,
     default_name: &str,
     options: &ImportOptions,
-) -> Result<Vec<(String, ObservationFile)>> {
+) -> Result<Vec<Pose>> {
     poses(table.text, default_name, options).map_err(|error| error.in_file(table.file))
 }
 
-fn poses(
-    text: &str,
-    default_name: &str,
-    options: &ImportOptions,
-) -> Result<Vec<(String, ObservationFile)>> {
+fn poses(text: &str, default_name: &str, options: &ImportOptions) -> Result<Vec<Pose>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if text.trim().is_empty() {
+        return Err(no_rows());
+    }
+    let mut lines = Lines { text, byte: 0, line: 1 };
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-    let header: Vec<String> = reader.headers().map_err(malformed)?.iter().map(lower).collect();
+    let header: Vec<String> = reader
+        .headers()
+        .map_err(|error| malformed(&error, &mut lines))?
+        .iter()
+        .map(lower)
+        .collect();
     let columns = Columns::of(&header, options)?;
     let mut poses = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(malformed)?;
-        let row =
-            Row { line: record.position().map_or(0, |at| at.line()), record, header: &header };
+        let record = record.map_err(|error| malformed(&error, &mut lines))?;
+        let row = Row { line: lines.of(record.position()), record, header: &header };
         for group in &columns.groups {
-            let Some(pose) = row.pose(&columns, group)? else {
+            let Some(observation) = row.pose(&columns, group)? else {
                 continue;
             };
             let named = columns.body.map(|column| row.record[column].to_owned());
             let name = named.or_else(|| group.body.clone());
-            poses.push((name.unwrap_or_else(|| default_name.to_owned()), pose));
+            let body = name.unwrap_or_else(|| default_name.to_owned());
+            poses.push(Pose { body, line: row.line, observation });
         }
+    }
+    if poses.is_empty() {
+        return Err(no_rows());
     }
     Ok(poses)
 }
@@ -51,7 +66,7 @@ fn lower(column: &str) -> String {
 }
 
 struct Row<'a> {
-    line: u64,
+    line: usize,
     record: csv::StringRecord,
     header: &'a [String],
 }
@@ -106,11 +121,46 @@ impl Row<'_> {
     }
 }
 
-fn malformed(error: csv::Error) -> Error {
+/// Counts lines. The reader's own count stops short of line breaks that it skips later: the `\n`
+/// of `\r\n`, and empty lines.
+struct Lines<'a> {
+    text: &'a str,
+    /// Up to here lines are counted.
+    byte: usize,
+    line: usize,
+}
+
+impl Lines<'_> {
+    /// The line, from 1, of a row that starts at or behind `position`; rows only go forwards.
+    fn of(&mut self, position: Option<&csv::Position>) -> usize {
+        let bytes = self.text.as_bytes();
+        let is_break = |byte: &u8| matches!(byte, b'\r' | b'\n');
+        let at = position.map_or(0, |at| at.byte() as usize).clamp(self.byte, bytes.len());
+        let start = at + bytes[at..].iter().take_while(|byte| is_break(byte)).count();
+        for index in self.byte..start {
+            let is_end = match bytes[index] {
+                b'\n' => true,
+                b'\r' => bytes.get(index + 1) != Some(&b'\n'),
+                _ => false,
+            };
+            self.line += usize::from(is_end);
+        }
+        self.byte = start;
+        self.line
+    }
+}
+
+fn no_rows() -> Error {
+    Error::new(ErrorKind::Parse, "has no rows with poses")
+        .mend("save the table with a header and a row for each pose")
+}
+
+fn malformed(error: &csv::Error, lines: &mut Lines<'_>) -> Error {
     let (place, problem) = match error.kind() {
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            let line = pos.as_ref().map_or(0, csv::Position::line);
-            (format!("line {line}"), format!("has {len} cells, but the header has {expected_len}"))
+            let cells = counted(*len as usize, "cell");
+            let line = lines.of(pos.as_ref());
+            (format!("line {line}"), format!("has {cells}, but the header has {expected_len}"))
         }
         _ => ("table".into(), error.to_string()),
     };

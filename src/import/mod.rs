@@ -5,13 +5,23 @@
 
 mod columns;
 mod csv;
+mod origin;
 
+use std::sync::Arc;
+
+use csv::Pose;
+use origin::Origin;
+
+use crate::files::shell_word;
 use crate::scene::{BodyFile, SCENE_SCHEMA, SceneFile, Shape};
 use crate::words::{did_you_mean, quoted};
 use crate::{Error, Result};
 
 /// The name of the static body that [`ImportOptions::plane`] makes.
 pub const PLANE_NAME: &str = "floor";
+
+/// The bodies that move in a collision.
+const MOST_BODIES: usize = 2;
 
 /// What a table of poses doesn't say.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,40 +96,57 @@ pub struct Table<'a> {
     pub text: &'a str,
 }
 
+/// A scene made of tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Import {
+    /// The scene, its rules not checked yet.
+    pub scene_file: SceneFile,
+    /// Where each body's observations stand.
+    origins: Vec<Vec<Origin>>,
+}
+
 /// Makes a scene of `tables` in CSV with a header; the order of bodies is that of their first
-/// appearance. Its rules are checked by [`crate::Scene::from_file`].
+/// appearance. Its rules are checked by [`Import::check`].
 ///
 /// Columns: `frame` or `time` (s); `x`, `y`, `z`; `qw`, `qx`, `qy`, `qz` (or `q0` to `q3`), which
 /// map the body to the world. Several bodies share a table by a column `body`, or by columns
 /// such as `a_x`; else a table is one body, named after its file. Empty cells weren't measured.
 ///
 /// # Errors
-/// A table that can't be understood, with line and column; a body without shape or the reverse.
-pub fn import_csv(tables: &[Table<'_>], options: &ImportOptions) -> Result<SceneFile> {
+/// A table that can't be understood, with line and column; more bodies than can collide; a body
+/// without shape or the reverse.
+pub fn import_csv(tables: &[Table<'_>], options: &ImportOptions) -> Result<Import> {
+    let mut origins: Vec<Vec<Origin>> = Vec::new();
     let mut bodies: Vec<BodyFile> = Vec::new();
     let unit = options.length_unit.in_metres();
     for table in tables {
         let poses = csv::read(table, default_name(tables, table, options), options)?;
-        for (name, mut pose) in poses {
-            pose.position = pose.position.map(|coordinate| coordinate * unit);
-            let index = bodies.iter().position(|body| body.name == name);
-            let index = index.unwrap_or_else(|| {
-                bodies.push(dynamic_body(name));
-                bodies.len() - 1
-            });
-            bodies[index].observations.get_or_insert_default().push(pose);
+        let file: Arc<str> = table.file.into();
+        for Pose { body: name, line, mut observation } in poses {
+            observation.position = observation.position.map(|coordinate| coordinate * unit);
+            let origin = Origin { file: Arc::clone(&file), line };
+            let index = match bodies.iter().position(|body| body.name == name) {
+                Some(index) => index,
+                None if bodies.len() == MOST_BODIES => return Err(third_body(&name, &origin)),
+                None => {
+                    bodies.push(BodyFile { name, ..BodyFile::default() });
+                    origins.push(Vec::new());
+                    bodies.len() - 1
+                }
+            };
+            bodies[index].observations.get_or_insert_default().push(observation);
+            origins[index].push(origin);
         }
     }
     give_shapes(&mut bodies, options)?;
     bodies.extend(options.plane.map(|(normal, height)| BodyFile {
         name: PLANE_NAME.into(),
-        shape: None,
-        observations: None,
         is_static: Some(true),
         normal: Some(normal),
         height: Some(height * unit),
+        ..BodyFile::default()
     }));
-    Ok(SceneFile {
+    let scene_file = SceneFile {
         schema: SCENE_SCHEMA.into(),
         name: options.name.clone(),
         fps: options.fps,
@@ -129,11 +156,15 @@ pub fn import_csv(tables: &[Table<'_>], options: &ImportOptions) -> Result<Scene
         camera: None,
         source: None,
         bodies,
-    })
+    };
+    Ok(Import { scene_file, origins })
 }
 
-fn dynamic_body(name: String) -> BodyFile {
-    BodyFile { name, shape: None, observations: None, is_static: None, normal: None, height: None }
+fn third_body(name: &str, origin: &Origin) -> Error {
+    let problem = format!("{} is one body too many", quoted(name));
+    Error::invalid(format!("line {}", origin.line), problem)
+        .in_file(&*origin.file)
+        .mend(format!("keep the {MOST_BODIES} bodies that collide"))
 }
 
 /// The body of a table that names none: the only shape, if there is one; else the file's name.
@@ -171,7 +202,8 @@ fn give_shapes(bodies: &mut [BodyFile], options: &ImportOptions) -> Result<()> {
         Some(BodyFile { name, .. }) => {
             let problem = format!("the body {} has no shape", quoted(name));
             Err(Error::invalid("shapes", problem).mend(format!(
-                "add `--box {name}=SX,SY,SZ` or `--sphere {name}=RADIUS`, in the unit of length"
+                "add `--box {name}=SX,SY,SZ` or `--sphere {name}=RADIUS`, in the unit of length",
+                name = shell_word(name)
             )))
         }
     }

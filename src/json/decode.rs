@@ -138,7 +138,10 @@ impl<'de> Deserializer<'de> for &'de Tree {
         visitor: V,
     ) -> std::result::Result<V::Value, Fault> {
         match self {
-            Tree::Text(word) => visitor.visit_enum(StrDeserializer::new(word)),
+            Tree::Text(word) => {
+                let bare: StrDeserializer<'_, Fault> = StrDeserializer::new(word);
+                visitor.visit_enum(bare).map_err(|fault| fault.of_word(word))
+            }
             // The word is the only field's name; the field holds what belongs to it.
             Tree::Object(fields) if fields.len() == 1 => {
                 let pairs = fields.iter().map(|(key, value)| (key.as_str(), value));

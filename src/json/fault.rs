@@ -10,14 +10,47 @@ use crate::{Error, ErrorKind};
 /// A broken expectation, in parts that a message can be made of.
 #[derive(Debug)]
 pub(super) enum Fault {
-    UnknownField { name: String, known: &'static [&'static str] },
-    UnknownWord { word: String, known: &'static [&'static str] },
+    UnknownField {
+        name: String,
+        known: &'static [&'static str],
+    },
+    UnknownWord {
+        word: String,
+        known: &'static [&'static str],
+    },
     MissingField(&'static str),
-    Wrong { found: String, expected: String },
+    Wrong {
+        found: String,
+        expected: String,
+    },
+    /// A word stands alone that needs a value.
+    LacksValue,
     Custom(String),
 }
 
+/// Words that stand with a value, as one writes them.
+const EXAMPLES: [(&str, &str); 5] = [
+    ("gaussian", "{\"gaussian\": {\"position\": 0.002, \"orientation\": 0.01}}"),
+    ("uniform", "{\"uniform\": 0.05}"),
+    ("frames", "{\"frames\": [0, 9, 18, 36, 45, 54]}"),
+    ("times", "{\"times\": [0, 0.1, 0.2, 0.4, 0.5, 0.6]}"),
+    ("regular", "{\"regular\": {\"interval\": 9, \"frame_count\": 90}}"),
+];
+
 impl Fault {
+    /// The same fault, where `word` was found without the value that belongs to it.
+    pub(super) fn of_word(self, word: &str) -> Fault {
+        let Fault::LacksValue = self else {
+            return self;
+        };
+        let example = EXAMPLES.iter().find(|(known, _)| *known == word);
+        let example = example.map_or(String::new(), |(_, text)| format!(", such as {text},"));
+        Fault::Wrong {
+            found: format!("\"{}\" without its value", shortened(word)),
+            expected: format!("the word with its value{example}"),
+        }
+    }
+
     /// The message, for the value at `place`.
     pub(super) fn into_error(self, place: String) -> Error {
         let (problem, mend) = match self {
@@ -35,6 +68,7 @@ impl Fault {
             Fault::Wrong { found, expected } => {
                 (format!("is {found}"), format!("write {expected} here"))
             }
+            Fault::LacksValue => ("lacks its value".into(), "write the word with its value".into()),
             Fault::Custom(text) => {
                 let (problem, mend) = text.split_once("; ").unwrap_or((&text, ""));
                 (problem.to_owned(), mend.to_owned())
@@ -56,6 +90,7 @@ fn in_words(expected: &dyn Expected) -> String {
         "a boolean" => "true or false".into(),
         "a string" => "a text in double quotes".into(),
         "a sequence" => "a list".into(),
+        "unit" => "null".into(),
         "a map" => "an object".into(),
         other => match other.strip_prefix("an array of length ") {
             Some(length) => format!("a list of {length} numbers"),
@@ -84,6 +119,9 @@ impl de::Error for Fault {
     }
 
     fn invalid_type(value: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        if value == Unexpected::UnitVariant {
+            return Fault::LacksValue;
+        }
         Fault::Wrong { found: found(value), expected: in_words(expected) }
     }
 

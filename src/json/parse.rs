@@ -111,7 +111,8 @@ impl<'de> Visitor<'de> for Values<'_> {
 fn explained(error: &serde_json::Error, text: &str) -> Error {
     let place = format!("line {}, column {}", error.line(), error.column());
     let said = error.to_string();
-    let said = said.split(" at line ").next().unwrap_or(&said);
+    let end = format!(" at line {} column {}", error.line(), error.column());
+    let said = said.strip_suffix(&end).unwrap_or(&said);
     let word = word_at(text, error.line(), error.column());
     let not_finite = ["nan", "inf", "-inf", "-nan"];
     let bare_number = not_finite.iter().any(|one| word.to_lowercase().starts_with(one));

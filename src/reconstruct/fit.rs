@@ -2,12 +2,12 @@
 
 use nalgebra::Vector3;
 
-use super::gravity_frame::from_wxyz;
 use super::internal::InternalScene;
 use super::phases::Solved;
 use super::result::Fit;
 use crate::Result;
 use crate::bridge::ffi;
+use crate::rigid_body::quaternion::from_wxyz;
 use crate::scene::Noise;
 
 /// Sums of squares over the measured numbers.

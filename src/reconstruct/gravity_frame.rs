@@ -37,28 +37,9 @@ impl GravityFrame {
     }
 }
 
-/// `[w, x, y, z]` of a quaternion, as in the files and across the bridge.
-pub(super) fn to_wxyz(q: &UnitQuaternion<f64>) -> [f64; 4] {
-    [q.w, q.i, q.j, q.k]
-}
-
-/// The unit quaternion of `[w, x, y, z]`.
-pub(super) fn from_wxyz([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// An asymmetric rotation would come back wrong from any mix-up of the order.
-    #[test]
-    fn quaternions_survive_the_bridge_order() {
-        let q = UnitQuaternion::from_euler_angles(0.3, -0.8, 1.9);
-        let wxyz = to_wxyz(&q);
-        assert_eq!(wxyz[0], q.scalar());
-        assert!(from_wxyz(wxyz).angle_to(&q) < 1e-15);
-    }
 
     #[test]
     fn up_becomes_minus_y_for_any_up() {

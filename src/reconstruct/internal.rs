@@ -1,9 +1,10 @@
 //! The scene as the paper's energy sees it: in the gravity frame, with time in frames.
 
 use super::SegmentCriterion;
-use super::gravity_frame::{GravityFrame, to_wxyz};
+use super::gravity_frame::GravityFrame;
 use crate::bridge::ffi::{PaperBody, PaperObservation, PaperScene};
 use crate::rigid_body::principal_inertia_per_mass;
+use crate::rigid_body::quaternion::to_wxyz;
 use crate::scene::DynamicBody;
 use crate::{Error, ErrorKind, Result, Scene};
 

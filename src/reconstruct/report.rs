@@ -5,7 +5,6 @@ use nalgebra::{UnitVector3, Vector3};
 use super::Options;
 use super::fit::fit;
 use super::flags::{Doubts, flags};
-use super::gravity_frame::to_wxyz;
 use super::internal::InternalScene;
 use super::phases::Solved;
 use super::push::{self, Push};
@@ -13,6 +12,7 @@ use super::result::{BodyResult, Estimate, Preset, RESULT_SCHEMA, Reconstruction}
 use super::scatter::position_scatter_m;
 use super::states::{States, settle_on_line, states};
 use crate::rigid_body::Contact;
+use crate::rigid_body::quaternion::to_wxyz;
 use crate::{Result, Scene};
 
 const NO_STD: &str = "the paper's weighted energy has no noise model, hence no standard deviation";

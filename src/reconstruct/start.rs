@@ -4,8 +4,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::gravity_frame::{from_wxyz, to_wxyz};
 use crate::bridge::ffi::{PaperBody, PaperBodyUnknowns, PaperFlight, PaperScene, PaperUnknowns};
+use crate::rigid_body::quaternion::{from_wxyz, to_wxyz};
 
 /// b₂ in m/frame: upwards.
 const VERTICAL_SPEED: f64 = -0.05;

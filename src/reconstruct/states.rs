@@ -2,12 +2,12 @@
 
 use nalgebra::Vector3;
 
-use super::gravity_frame::from_wxyz;
 use super::internal::InternalScene;
 use super::phases::Solved;
 use super::solver_error;
 use crate::bridge::ffi::{self, PaperBody, PaperFlight};
 use crate::rigid_body::RigidBody;
+use crate::rigid_body::quaternion::from_wxyz;
 use crate::scene::Shape;
 use crate::{Result, Scene};
 

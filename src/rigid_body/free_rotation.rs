@@ -1,12 +1,15 @@
 //! Rotation of a body that no torque acts on: its angular momentum k stays, its spin needn't.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::omega_in_world;
 
 /// The largest angle of one step, in rad. RKMK4's global error goes with its fourth power; at
 /// this angle solids from cubes to rods are off by less than 1e-9 rad after 20 rad.
 const LARGEST_STEP_RAD: f64 = 0.01;
+
+/// The largest [`turning_bound_rad`] that [`rotate_freely`] integrates: some ten seconds of work.
+pub const LARGEST_TURNING_RAD: f64 = 1e6;
 
 /// The orientation `duration_s` seconds later (earlier when negative) of a body that rotates
 /// freely with the constant angular momentum `k_in_world`.
@@ -16,7 +19,8 @@ const LARGEST_STEP_RAD: f64 = 0.01;
 /// (SMASH eq. 8 to 10) is integrated by the Runge-Kutta-Munthe-Kaas method of order 4 (Munthe-Kaas,
 /// *High order Runge-Kutta methods on manifolds*, 1999; Hairer, Lubich & Wanner, *Geometric
 /// Numerical Integration*, IV.8), which stays on the rotation group; k is never integrated. The
-/// time it takes grows with [`turning_bound_rad`].
+/// time it takes grows with [`turning_bound_rad`]; if that is beyond [`LARGEST_TURNING_RAD`] or not
+/// finite (a zero moment), the answer is NaN.
 pub fn rotate_freely(
     world_from_body: &UnitQuaternion<f64>,
     inertia: &Vector3<f64>,
@@ -27,6 +31,9 @@ pub fn rotate_freely(
         return UnitQuaternion::new(k_in_world * (duration_s / inertia.x)) * world_from_body;
     }
     let turning_rad = turning_bound_rad(inertia, k_in_world, duration_s);
+    if turning_rad.is_nan() || turning_rad > LARGEST_TURNING_RAD {
+        return UnitQuaternion::new_unchecked(Quaternion::from([f64::NAN; 4]));
+    }
     let steps = (turning_rad / LARGEST_STEP_RAD).ceil().max(1.0);
     let step_s = duration_s / steps;
     let turned = (0..steps as u64)

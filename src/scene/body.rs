@@ -11,16 +11,22 @@ use crate::{Error, Result};
 pub(super) fn static_plane(place: &str, body: BodyFile) -> Result<StaticPlane> {
     refuse(place, "shape", body.shape.is_some(), "a static body is a plane")?;
     refuse(place, "observations", body.observations.is_some(), "a static body doesn't move")?;
-    let normal =
-        needed(place, "normal", body.normal, "a static body is the plane normal·p = height")?;
-    let height =
-        needed(place, "height", body.height, "a static body is the plane normal·p = height")?;
-    check_range(&format!("{place}.height"), height, &POSITION_M, "give the height in m")?;
-    Ok(StaticPlane {
-        name: body.name,
-        normal_in_world: unit_vector(&format!("{place}.normal"), normal)?,
-        height_m: height,
-    })
+    plane(place, body.name, body.normal, body.height)
+}
+
+/// The plane of the static body at `place`, in a scene or a specification.
+pub(crate) fn plane(
+    place: &str,
+    name: String,
+    normal: Option<[f64; 3]>,
+    height: Option<f64>,
+) -> Result<StaticPlane> {
+    let why = "a static body is the plane normal·p = height";
+    let normal = needed(place, "normal", normal, why)?;
+    let height_m = needed(place, "height", height, why)?;
+    check_range(&format!("{place}.height"), height_m, &POSITION_M, "give the height in m")?;
+    let normal_in_world = unit_vector(&format!("{place}.normal"), normal)?;
+    Ok(StaticPlane { name, normal_in_world, height_m })
 }
 
 /// The dynamic body at `place`, its poses in order of time.
@@ -30,11 +36,7 @@ pub(super) fn dynamic_body(
     fps: Option<f64>,
     warnings: &mut Vec<Warning>,
 ) -> Result<DynamicBody> {
-    let only_static = "only a body with `\"static\": true` has it";
-    refuse(place, "normal", body.normal.is_some(), only_static)?;
-    refuse(place, "height", body.height.is_some(), only_static)?;
-    let shape = needed(place, "shape", body.shape, "a dynamic body has a shape")?;
-    check_shape(place, &shape)?;
+    let shape = solid(place, body.shape, body.normal, body.height)?;
     let files = needed(place, "observations", body.observations, "a dynamic body has poses")?;
     let place = format!("{place}.observations");
     if files.len() > MOST_OBSERVATIONS {
@@ -50,16 +52,30 @@ pub(super) fn dynamic_body(
     Ok(DynamicBody { name: body.name, shape, observations })
 }
 
-pub(crate) fn check_shape(place: &str, shape: &Shape) -> Result<()> {
+/// The shape of the dynamic body at `place`, in a scene or a specification, which has nothing of
+/// a plane.
+pub(crate) fn solid(
+    place: &str,
+    shape: Option<Shape>,
+    normal: Option<[f64; 3]>,
+    height: Option<f64>,
+) -> Result<Shape> {
+    let only_static = "only a body with `\"static\": true` has it";
+    refuse(place, "normal", normal.is_some(), only_static)?;
+    refuse(place, "height", height.is_some(), only_static)?;
+    let shape = needed(place, "shape", shape, "a dynamic body has a shape")?;
     let mend = "give lengths in m, above 0";
-    match *shape {
-        Shape::Box { size } => size.iter().enumerate().try_for_each(|(axis, &edge)| {
-            check_range(&format!("{place}.shape.size[{axis}]"), edge, &SIZE_M, mend)
-        }),
+    match shape {
+        Shape::Box { size } => {
+            for (axis, &edge) in size.iter().enumerate() {
+                check_range(&format!("{place}.shape.size[{axis}]"), edge, &SIZE_M, mend)?;
+            }
+        }
         Shape::Sphere { radius } => {
-            check_range(&format!("{place}.shape.radius"), radius, &SIZE_M, mend)
+            check_range(&format!("{place}.shape.radius"), radius, &SIZE_M, mend)?;
         }
     }
+    Ok(shape)
 }
 
 fn observation(place: &str, file: &ObservationFile, fps: Option<f64>) -> Result<Observation> {

@@ -1,8 +1,8 @@
 //! The rules of a scene: a [`SceneFile`] that keeps them all becomes a [`Scene`].
 
 use super::body::{dynamic_body, static_plane};
-use super::bounds::{FPS, GRAVITY_M_S2, NOISE};
-use super::values::{check_name, check_range, position, unit_vector};
+use super::bounds::{FPS, GRAVITY_M_S2};
+use super::values::{check_name, check_noise, check_range, position, unit_vector};
 use super::{BodyFile, SCENE_SCHEMA, Scene, SceneFile, gaps, warn};
 use crate::json::check_schema;
 use crate::words::quoted;
@@ -22,9 +22,7 @@ impl Scene {
         check_range("gravity", file.gravity, &GRAVITY_M_S2, "give gravity in m/s², such as 9.81")?;
         let up_in_world = unit_vector("up", file.up)?;
         if let Some(noise) = file.noise {
-            check_range("noise.position", noise.position, &NOISE, "give one σ in m, above 0")?;
-            let mend = "give one σ in rad, above 0";
-            check_range("noise.orientation", noise.orientation, &NOISE, mend)?;
+            check_noise("noise", &noise)?;
         }
         if let Some(camera) = &file.camera {
             position("camera.position", camera.position)?;

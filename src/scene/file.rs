@@ -44,11 +44,13 @@ pub struct SceneFile {
     pub bodies: Vec<BodyFile>,
 }
 
-fn default_up() -> [f64; 3] {
+/// y is up, also in a simulation.
+pub(crate) fn default_up() -> [f64; 3] {
     [0.0, 1.0, 0.0]
 }
 
-fn default_gravity() -> f64 {
+/// On Earth, in m/s².
+pub(crate) fn default_gravity() -> f64 {
     9.81
 }
 
@@ -76,7 +78,7 @@ pub struct Camera {
 
 /// A body in a scene file: dynamic (`shape` and `observations`), or a static plane (`static`,
 /// `normal` and `height`).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = [
     {"required": ["shape", "observations"], "properties": {

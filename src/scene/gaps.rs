@@ -2,7 +2,7 @@
 
 use super::bounds::{LEAST_POSES, SAME_TIME_S};
 use super::{DynamicBody, Scene};
-use crate::words::quoted;
+use crate::words::{counted, quoted};
 use crate::{Error, Result};
 
 /// A gap between two consecutive times of all bodies' observations.
@@ -62,7 +62,8 @@ pub(super) fn check(bodies: &[DynamicBody]) -> Result<()> {
     for body in bodies {
         let poses = body.observations.len();
         if poses < needed {
-            let problem = format!("body {} has {poses} observations", quoted(&body.name));
+            let problem =
+                format!("body {} has {}", quoted(&body.name), counted(poses, "observation"));
             return Err(Error::invalid("bodies", problem).mend(format!(
                 "annotate {LEAST_POSES} or more poses before and {LEAST_POSES} or more after the \
                  collision"

@@ -6,7 +6,7 @@
 pub(crate) mod body;
 pub(crate) mod bounds;
 mod check;
-mod file;
+pub(crate) mod file;
 mod gaps;
 mod order;
 mod read;
@@ -122,6 +122,13 @@ impl Scene {
     /// The static plane, if the contact is with one.
     pub fn plane(&self) -> Option<&StaticPlane> {
         self.plane.as_ref()
+    }
+
+    /// Puts the warnings in the terms of what the scene was made of.
+    pub(crate) fn retell_warnings(&mut self, retold: impl Fn(&str) -> String) {
+        for warning in &mut self.warnings {
+            warning.text = retold(&warning.text);
+        }
     }
 
     /// What looked odd when the scene was read.

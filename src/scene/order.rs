@@ -39,7 +39,8 @@ pub(super) fn sorted(
                 if !is_same_pose(last, &observation) {
                     let at = format!("{place}[{index}]");
                     let time = observation.time_s;
-                    let problem = format!("has the time of [{first}], {time} s, but another pose");
+                    let problem =
+                        format!("has the time of {place}[{first}], {time} s, but another pose");
                     return Err(Error::invalid(at, problem).mend("keep the right one of the two"));
                 }
                 repeated.push(index);

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use super::{BodyFile, ObservationFile, SCENE_SCHEMA, Scene, SceneFile};
+use super::{BodyFile, ObservationFile, SCENE_SCHEMA, Scene, SceneFile, StaticPlane};
 use crate::Result;
 use crate::files::{display_name, read_text};
 use crate::json::{decode, pretty};
+use crate::rigid_body::quaternion::to_wxyz;
 
 impl Scene {
     /// Reads and checks the scene file `path` (`-` is standard input).
@@ -32,18 +33,9 @@ impl Scene {
             name: body.name.clone(),
             shape: Some(body.shape),
             observations: Some(body.observations.iter().map(ObservationFile::from).collect()),
-            is_static: None,
-            normal: None,
-            height: None,
+            ..BodyFile::default()
         });
-        let plane = self.plane.iter().map(|plane| BodyFile {
-            name: plane.name.clone(),
-            shape: None,
-            observations: None,
-            is_static: Some(true),
-            normal: Some(plane.normal_in_world.into_inner().into()),
-            height: Some(plane.height_m),
-        });
+        let plane = self.plane.iter().map(BodyFile::from);
         SceneFile {
             schema: SCENE_SCHEMA.into(),
             name: self.name.clone(),
@@ -71,7 +63,19 @@ impl From<&super::Observation> for ObservationFile {
             frame: None,
             time: Some(seen.time_s),
             position: seen.position_in_world.into(),
-            orientation: seen.world_from_body.map(|q| [q.w, q.i, q.j, q.k]),
+            orientation: seen.world_from_body.as_ref().map(to_wxyz),
+        }
+    }
+}
+
+impl From<&StaticPlane> for BodyFile {
+    fn from(plane: &StaticPlane) -> Self {
+        BodyFile {
+            name: plane.name.clone(),
+            is_static: Some(true),
+            normal: Some(plane.normal_in_world.into_inner().into()),
+            height: Some(plane.height_m),
+            ..BodyFile::default()
         }
     }
 }

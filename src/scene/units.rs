@@ -10,6 +10,9 @@ use crate::words::quoted;
 /// that still points to the unit. Wrong frame rates give factors too, hence the narrow ones.
 const UNITS: [(&str, f64, f64); 4] =
     [("mm", 1000.0, 1.5), ("cm", 100.0, 1.5), ("inches", 39.37, 1.2), ("feet", 3.281, 1.05)];
+/// For positions and sizes in another unit.
+const MEND: &str =
+    "give positions and sizes in m; `smash import` converts them from its `--length-unit`";
 /// Gravity on Earth in m/s², to judge the stated value.
 const EARTH_M_S2: f64 = 9.81;
 /// A fitted acceleration counts if its standard error is below this fraction of it: half the
@@ -46,10 +49,7 @@ fn fall(scene: &Scene, body: &DynamicBody) -> Option<Warning> {
         return Some(Warning { text, mend: "turn the sign of `up`".into() });
     }
     let unit = unit_of(ratio)?;
-    Some(Warning {
-        text: format!("{falls}: its positions look like {unit}"),
-        mend: "give positions and sizes in m".into(),
-    })
+    Some(Warning { text: format!("{falls}: its positions look like {unit}"), mend: MEND.into() })
 }
 
 fn size(body: &DynamicBody) -> Option<Warning> {
@@ -66,7 +66,7 @@ fn size(body: &DynamicBody) -> Option<Warning> {
              path of {path:.4} m; the size looks like cm or mm",
             quoted(&body.name)
         ),
-        mend: "give positions and sizes in m".into(),
+        mend: MEND.into(),
     })
 }
 

@@ -2,10 +2,12 @@
 
 use std::ops::RangeInclusive;
 
-use nalgebra::{Quaternion, UnitQuaternion, UnitVector3, Vector3};
+use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
-use super::bounds::{LONGEST_NAME, POSITION_M, UNIT_TOLERANCE};
-use crate::words::quoted;
+use super::Noise;
+use super::bounds::{LONGEST_NAME, NOISE, POSITION_M, UNIT_TOLERANCE};
+use crate::rigid_body::quaternion::from_wxyz;
+use crate::words::{limit, quoted, rounded};
 use crate::{Error, Result};
 
 /// Names stand in tables and on terminals.
@@ -38,8 +40,7 @@ pub(crate) fn unit_vector(place: &str, coordinates: [f64; 3]) -> Result<UnitVect
 
 pub(crate) fn unit_quaternion(place: &str, wxyz: [f64; 4]) -> Result<UnitQuaternion<f64>> {
     let length = unit_length(place, &wxyz)?;
-    let [w, x, y, z] = wxyz;
-    Ok(UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z) / length))
+    Ok(from_wxyz(wxyz.map(|component| component / length)))
 }
 
 /// The length of what should have length 1; exactly 1 if it is 1 but for rounding, so that what
@@ -59,7 +60,7 @@ fn unit_length(place: &str, values: &[f64]) -> Result<f64> {
     Err(if length == 0.0 && values.len() == 4 {
         error.mend("leave `orientation` out if it wasn't measured")
     } else if length.is_normal() && length < 1e100 {
-        let unit: Vec<_> = values.iter().map(|value| format!("{:.6}", value / length)).collect();
+        let unit: Vec<_> = values.iter().map(|value| rounded(value / length)).collect();
         error.mend(format!("divide it by its length: [{}]", unit.join(", ")))
     } else {
         error.mend("give a vector of length 1")
@@ -76,8 +77,17 @@ pub(crate) fn check_range(
     if range.contains(&value) {
         return Ok(());
     }
-    let problem = format!("{value:?} is not within {:e} to {:e}", range.start(), range.end());
+    let (least, most) = (limit(*range.start()), limit(*range.end()));
+    let problem = format!("{value:?} is not within {least} to {most}");
     Err(Error::invalid(place, problem).mend(mend))
+}
+
+/// One σ of positions and of orientations.
+pub(crate) fn check_noise(place: &str, noise: &Noise) -> Result<()> {
+    let mend = "give one σ in m, above 0";
+    check_range(&format!("{place}.position"), noise.position, &NOISE, mend)?;
+    let mend = "give one σ in rad, above 0; where no orientation is measured, any will do";
+    check_range(&format!("{place}.orientation"), noise.orientation, &NOISE, mend)
 }
 
 /// A field that this kind of body has.

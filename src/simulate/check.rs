@@ -9,10 +9,10 @@ use super::instant::{Instant, instants};
 use super::{BodySpec, NoiseSpec, SIMULATION_SCHEMA, SimulationSpec};
 use crate::json::check_schema;
 use crate::rigid_body::RigidBody;
-use crate::scene::body::check_shape;
-use crate::scene::bounds::{FPS, GRAVITY_M_S2, NOISE, POSITION_M};
+use crate::scene::body::{self, solid};
+use crate::scene::bounds::{FPS, GRAVITY_M_S2};
 use crate::scene::values::{
-    check_name, check_range, needed, position, refuse, unit_quaternion, unit_vector,
+    check_name, check_noise, check_range, needed, position, refuse, unit_quaternion, unit_vector,
 };
 use crate::scene::{Shape, StaticPlane};
 use crate::{Error, Result};
@@ -73,22 +73,17 @@ pub(super) fn setup(spec: &SimulationSpec) -> Result<Setup> {
     }
     let mend = "give gravity in m/s², such as 9.81";
     check_range("gravity", spec.gravity, &GRAVITY_M_S2, mend)?;
-    check_noise(&spec.noise)?;
+    check_noise_spec(&spec.noise)?;
     let up_in_world = unit_vector("up", spec.up)?;
     let (a, partner) = bodies(spec)?;
     let strike = check_strike(&spec.collision, &a, &partner)?;
     Ok(Setup { up_in_world, a, partner, strike })
 }
 
-fn check_noise(noise: &NoiseSpec) -> Result<()> {
+fn check_noise_spec(noise: &NoiseSpec) -> Result<()> {
     match *noise {
         NoiseSpec::None => Ok(()),
-        NoiseSpec::Gaussian(sigma) => {
-            let place = |field: &str| format!("noise.gaussian.{field}");
-            check_range(&place("position"), sigma.position, &NOISE, "give one σ in m, above 0")?;
-            let mend = "give one σ in rad, above 0";
-            check_range(&place("orientation"), sigma.orientation, &NOISE, mend)
-        }
+        NoiseSpec::Gaussian(sigma) => check_noise("noise.gaussian", &sigma),
         NoiseSpec::Uniform(fraction) if fraction > 0.0 && fraction < 1.0 => Ok(()),
         NoiseSpec::Uniform(fraction) => {
             Err(Error::invalid("noise.uniform", format!("{fraction:?} is not between 0 and 1"))
@@ -128,11 +123,7 @@ fn bodies(spec: &SimulationSpec) -> Result<(Actor, Partner)> {
 fn actor(spec: &SimulationSpec, index: usize, mass: f64) -> Result<Actor> {
     let body = &spec.bodies[index];
     let place = format!("bodies[{index}]");
-    let only_static = "only a body with `\"static\": true` has it";
-    refuse(&place, "normal", body.normal.is_some(), only_static)?;
-    refuse(&place, "height", body.height.is_some(), only_static)?;
-    let shape = needed(&place, "shape", body.shape, "a dynamic body has a shape")?;
-    check_shape(&place, &shape)?;
+    let shape = solid(&place, body.shape, body.normal, body.height)?;
     let why = "a dynamic body has a state just before the collision";
     let centre = needed(&place, "position", body.position, why)?;
     let velocity = needed(&place, "velocity", body.velocity, why)?;
@@ -176,13 +167,5 @@ fn plane(spec: &SimulationSpec, index: usize) -> Result<StaticPlane> {
     ] {
         refuse(&place, field, is_there, "a static body is a plane")?;
     }
-    let why = "a static body is the plane normal·p = height";
-    let normal = needed(&place, "normal", body.normal, why)?;
-    let height = needed(&place, "height", body.height, why)?;
-    check_range(&format!("{place}.height"), height, &POSITION_M, "give the height in m")?;
-    Ok(StaticPlane {
-        name: body.name.clone(),
-        normal_in_world: unit_vector(&format!("{place}.normal"), normal)?,
-        height_m: height,
-    })
+    body::plane(&place, body.name.clone(), body.normal, body.height)
 }

@@ -8,6 +8,7 @@ use crate::rigid_body::{Contact, RigidBody};
 use crate::scene::Shape;
 use crate::scene::bounds::TIME_S;
 use crate::scene::values::{check_range, needed, position, refuse, unit_vector};
+use crate::words::rounded;
 use crate::{Error, Result};
 
 /// How far a contact point may be off a body's surface: what one rounds to by hand, in m.
@@ -199,5 +200,5 @@ fn restitution_of(
 }
 
 fn shown(point: &Vector3<f64>) -> String {
-    format!("[{:.6}, {:.6}, {:.6}]", point.x, point.y, point.z)
+    format!("[{}]", [point.x, point.y, point.z].map(rounded).join(", "))
 }

@@ -2,6 +2,7 @@
 
 use super::{Sampling, SimulationSpec};
 use crate::scene::bounds::{LEAST_POSES, MOST_OBSERVATIONS};
+use crate::words::counted;
 use crate::{Error, Result};
 
 /// When a body is seen, and how the scene writes it.
@@ -91,7 +92,9 @@ fn check_sides(
     }
     let name = &spec.bodies[index].name;
     let problem = format!(
-        "see `{name}` {before} times before the collision at {collision_s} s and {after} times after"
+        "see `{name}` {} before the collision at {collision_s} s and {} after",
+        counted(before, "time"),
+        counted(after, "time")
     );
     Err(Error::invalid(place, problem).mend(format!("give {LEAST_POSES} or more on each side")))
 }

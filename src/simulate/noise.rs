@@ -1,12 +1,13 @@
 //! The noise of annotations, seeded.
 
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::rigid_body::quaternion::{from_wxyz, to_wxyz};
 use crate::scene::{Noise, ObservationFile, SceneFile};
 
 /// How observed poses differ from the true ones.
@@ -60,10 +61,7 @@ fn add_gaussian(observation: &mut ObservationFile, sigma: &Noise, random: &mut C
     }
     if let Some(orientation) = &mut observation.orientation {
         let turn = Vector3::from_fn(|_, _| deviate(sigma.orientation));
-        let [w, x, y, z] = *orientation;
-        let observed = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
-            * UnitQuaternion::new(turn);
-        *orientation = [observed.w, observed.i, observed.j, observed.k];
+        *orientation = to_wxyz(&(from_wxyz(*orientation) * UnitQuaternion::new(turn)));
     }
 }
 

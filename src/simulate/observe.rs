@@ -1,18 +1,16 @@
 //! The exact scene: every body's pose whenever it is seen.
 
-use nalgebra::UnitQuaternion;
 use serde_json::json;
 
 use super::check::{Actor, Partner, Setup};
 use super::{Motion, NoiseSpec, SimulationSpec};
-use crate::scene::{BodyFile, ObservationFile, SCENE_SCHEMA, SceneFile, StaticPlane};
+use crate::rigid_body::LARGEST_TURNING_RAD;
+use crate::rigid_body::quaternion::to_wxyz;
+use crate::scene::{BodyFile, ObservationFile, SCENE_SCHEMA, SceneFile};
 use crate::{Error, Result};
 
-/// The largest angle in rad that all free rotations of a simulation may add up to: it bounds the
-/// time taken, at some tens of seconds.
-const LARGEST_TOTAL_ANGLE_RAD: f64 = 1e6;
-
-/// Refuses what would take for ever: a spin of a million turns, seen ten thousand times.
+/// Refuses what would take for ever: a spin of a million turns, seen ten thousand times. All free
+/// rotations together may take as long as the longest one.
 pub(super) fn check_effort(setup: &Setup, motions: &[Motion]) -> Result<()> {
     let total_rad: f64 = setup
         .actors()
@@ -21,13 +19,13 @@ pub(super) fn check_effort(setup: &Setup, motions: &[Motion]) -> Result<()> {
             actor.instants.iter().map(|instant| motion.integrated_angle_rad(instant.time_s))
         })
         .sum();
-    if total_rad <= LARGEST_TOTAL_ANGLE_RAD {
+    if total_rad <= LARGEST_TURNING_RAD {
         return Ok(());
     }
     let problem =
         format!("turn too fast for too long: {total_rad:.3e} rad between collision and poses");
     Err(Error::invalid("bodies", problem).mend(format!(
-        "keep it below {LARGEST_TOTAL_ANGLE_RAD:.0e} rad: angular velocities are in rad/s, sizes \
+        "keep it below {LARGEST_TURNING_RAD:.0e} rad: angular velocities are in rad/s, sizes \
          in m"
     )))
 }
@@ -41,7 +39,7 @@ pub(super) fn scene_file(spec: &SimulationSpec, setup: &Setup, motions: &[Motion
         })
         .collect();
     if let Partner::Plane(plane) = &setup.partner {
-        bodies.push((1 - setup.a.index, static_body(plane)));
+        bodies.push((1 - setup.a.index, BodyFile::from(plane)));
     }
     bodies.sort_by_key(|&(index, _)| index);
     SceneFile {
@@ -75,31 +73,13 @@ fn dynamic_body(actor: &Actor, motion: &Motion, is_orientation_measured: bool) -
             frame: instant.frame,
             time: if instant.frame.is_none() { Some(instant.time_s) } else { None },
             position: body.position_in_world.into(),
-            orientation: is_orientation_measured.then(|| components(&body.world_from_body)),
+            orientation: is_orientation_measured.then(|| to_wxyz(&body.world_from_body)),
         }
     };
     BodyFile {
         name: actor.name.clone(),
         shape: Some(actor.shape),
         observations: Some(actor.instants.iter().map(observe).collect()),
-        is_static: None,
-        normal: None,
-        height: None,
+        ..BodyFile::default()
     }
-}
-
-fn static_body(plane: &StaticPlane) -> BodyFile {
-    BodyFile {
-        name: plane.name.clone(),
-        shape: None,
-        observations: None,
-        is_static: Some(true),
-        normal: Some(plane.normal_in_world.into_inner().into()),
-        height: Some(plane.height_m),
-    }
-}
-
-/// The quaternion in the files' order: w, x, y, z.
-pub(super) fn components(world_from_body: &UnitQuaternion<f64>) -> [f64; 4] {
-    [world_from_body.w, world_from_body.i, world_from_body.j, world_from_body.k]
 }

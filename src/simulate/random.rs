@@ -11,11 +11,11 @@ use rand_distr::{Distribution, StandardNormal, UnitSphere};
 
 use super::check::setup;
 use super::clearance::{half_extent, is_clear};
-use super::observe::components;
 use super::{
     BodySpec, CollisionSpec, NoiseSpec, RegularSampling, SIMULATION_SCHEMA, Sampling,
     SimulationSpec, motions,
 };
+use crate::rigid_body::quaternion::to_wxyz;
 use crate::rigid_body::{Contact, RigidBody};
 use crate::scene::Shape;
 
@@ -166,7 +166,7 @@ impl Piece {
             name: name.into(),
             shape: Some(self.shape),
             position: Some(self.body.position_in_world.into()),
-            orientation: Some(components(&self.body.world_from_body)),
+            orientation: Some(to_wxyz(&self.body.world_from_body)),
             velocity: Some(self.body.velocity_in_world.into()),
             angular_velocity: Some(self.omega_in_world.into()),
             measure_orientation: if is_box { None } else { Some(false) },

@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::scene::bounds::MOST_OBSERVATIONS;
 use crate::scene::{ObservationFile, SceneFile};
+
+/// A collision farther off is taken to be here; up to here f64 holds every whole and half frame.
+const FARTHEST_FRAME: f64 = 1e15;
 
 /// When a body is seen.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,21 +48,28 @@ impl RegularSampling {
 
     /// The frame numbers, in order, for a collision at `collision_frame` (rarely a whole number).
     ///
+    /// No more than 100 000 on each side, those nearest the collision: no scene holds more.
+    ///
     /// Of 90 frames with an interval of 19 and a collision at frame 45: 7, 26, 64 and 83.
     pub fn frame_numbers(&self, collision_frame: f64) -> Vec<u32> {
         let interval = i64::from(self.interval.max(1));
-        let gap = i64::from(self.gap.unwrap_or(self.interval.saturating_mul(2)));
-        // A collision far off the film saturates, which leaves one side empty.
-        let last_before = (collision_frame - gap as f64 / 2.0).round() as i64;
-        let first_after = last_before.saturating_add(gap);
-        let is_seen = |frame: &u32| {
-            let frame = i64::from(*frame);
-            let to_before = last_before.saturating_sub(frame);
-            let from_after = frame.saturating_sub(first_after);
-            (to_before >= 0 && to_before % interval == 0)
-                || (from_after >= 0 && from_after % interval == 0)
-        };
-        (0..self.frame_count).filter(is_seen).collect()
+        let gap = self.gap.unwrap_or(self.interval.saturating_mul(2));
+        let middle = collision_frame.clamp(-FARTHEST_FRAME, FARTHEST_FRAME);
+        let last_before = (middle - f64::from(gap) / 2.0).round() as i64;
+        let first_after = last_before + i64::from(gap);
+        let last_frame = i64::from(self.frame_count) - 1;
+        // Frames off the film are stepped over, not walked through.
+        let steps_over = |frames: i64| interval * ((frames.max(0) + interval - 1) / interval);
+        let latest = last_before - steps_over(last_before - last_frame);
+        let earliest = first_after + steps_over(-first_after);
+        let interval = interval as usize;
+        let before = (0..=latest).rev().step_by(interval).take(MOST_OBSERVATIONS);
+        let after = (earliest..=last_frame).step_by(interval).take(MOST_OBSERVATIONS);
+        let mut frames: Vec<u32> = before.chain(after).map(|frame| frame as u32).collect();
+        frames.sort_unstable();
+        // Without a gap both sides hold the frame between them.
+        frames.dedup();
+        frames
     }
 }
 

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{NoiseSpec, Sampling};
 use crate::scene::Shape;
+use crate::scene::file::{default_gravity, default_up};
 
 /// The value of a specification's field `schema`.
 pub const SIMULATION_SCHEMA: &str = "smash.simulation/1";
@@ -50,14 +51,6 @@ pub struct SimulationSpec {
     /// Start of the noise's random numbers: the same seed gives the same scene.
     #[serde(default)]
     pub seed: u64,
-}
-
-fn default_up() -> [f64; 3] {
-    [0.0, 1.0, 0.0]
-}
-
-fn default_gravity() -> f64 {
-    9.81
 }
 
 /// A body: dynamic (`shape`, and its state at the collision, just before the impulse), or a static

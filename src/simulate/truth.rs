@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{Actor, Setup};
-use super::observe::components;
 use super::{Motion, SimulationSpec};
+use crate::rigid_body::quaternion::to_wxyz;
 
 /// The value of a truth file's field `schema`.
 pub const TRUTH_SCHEMA: &str = "smash.truth/1";
@@ -82,7 +82,7 @@ fn true_body(actor: &Actor, Motion { before, after, .. }: &Motion) -> TrueBody {
     TrueBody {
         name: actor.name.clone(),
         position: before.position_in_world.into(),
-        orientation: components(&before.world_from_body),
+        orientation: to_wxyz(&before.world_from_body),
         velocity_before: before.velocity_in_world.into(),
         velocity_after: after.velocity_in_world.into(),
         angular_velocity_before: before.omega_in_world().into(),

@@ -2,7 +2,7 @@
 //! a child process on each.
 
 use std::fs::{self, File};
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -139,6 +139,11 @@ fn broken_scenes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("lone surrogate", with("two boxes", "\\ud800"), "isn't JSON"),
         ("key twice", with(fps, "\"fps\":60,\"fps\":30"), "`fps` again"),
         ("key twice, escaped", with(fps, "\"fps\":60,\"\\u0066ps\":30"), "`fps` again"),
+        (
+            "key twice, of many words",
+            with(fps, "\"a at line 1\":1,\"a at line 1\":1"),
+            "`a at line 1` again",
+        ),
         ("key twice in source", with(fps, "\"source\":{\"k\":1,\"k\":1}"), "`k` again"),
         // Deep and long.
         ("10,000 lists deep", deep("[", "]"), "nested deeper"),
@@ -215,13 +220,13 @@ fn broken_scenes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("no bodies", b"{\"schema\":\"smash.scene/1\",\"bodies\":[]}".to_vec(), "is empty"),
         ("one name for two", with("\"name\":\"b\"", a_name), "name of its own"),
         ("no observations", observed(json!([])), "0 observations"),
-        ("one observation", observed(poses(1, |i| json!(i))), "1 observations"),
+        ("one observation", observed(poses(1, |i| json!(i))), "1 observation\n"),
         ("all on one side", observed(poses(10, |i| json!(1000 + i))), "no moment"),
         ("identical times", observed(poses(10, |_| json!(0))), "another pose"),
         (
             "ten times one pose",
             observed(json!(vec![json!({"frame": 0, "position": [0, 0, 0]}); 10])),
-            "1 observations",
+            "1 observation\n",
         ),
         ("no fps", with("\"fps\":60,", ""), "add `fps`"),
         (
@@ -328,6 +333,7 @@ fn outputs_that_cannot_be_written_are_named() {
     for (output, words) in [
         ("folder", "is a folder"),
         ("missing/result.json", "make the folder"),
+        ("/proc/result.json", "choose another folder"),
         ("/dev/full", "space"),
     ] {
         let run = smash(folder.path(), &["reconstruct", "scene.json", "-o", output]);
@@ -363,4 +369,143 @@ fn a_failed_run_leaves_the_old_output() {
     fs::write(&old, "old").unwrap();
     refusal("broken", &smash(folder.path(), &["reconstruct", "scene.json", "-o", "result.json"]));
     assert_eq!(fs::read_to_string(old).unwrap(), "old");
+}
+
+const SPEC: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/boxes.spec.json");
+const TABLE: &str = "time,x,y,z\n0,0,0,0.3\n0.1,0,0,0.2\n0.2,0,0,0.1\n0.3,0,0,0.2\n0.4,0,0,0.3\n";
+const FALL: [&str; 6] = ["--length-unit", "m", "--up", "z", "--sphere", "ball=0.1"];
+
+/// A folder with an input of each command, under several names.
+fn folder_of_inputs() -> TempDir {
+    let folder = folder_with(two_boxes().to_string().as_bytes());
+    let path = |name: &str| folder.path().join(name);
+    fs::copy(SPEC, path("spec.json")).unwrap();
+    fs::write(path("poses.csv"), TABLE).unwrap();
+    for name in ["scene.json", "spec.json", "poses.csv"] {
+        symlink(name, path(&format!("symbolic-{name}"))).unwrap();
+        fs::hard_link(path(name), path(&format!("hard-{name}"))).unwrap();
+    }
+    folder
+}
+
+/// A result in place of the annotations it was made of: they would be lost.
+#[test]
+fn no_input_is_overwritten() {
+    let folder = folder_of_inputs();
+    let import: Vec<&str> = ["import", "poses.csv"].into_iter().chain(FALL).collect();
+    let commands = [
+        ("scene.json", vec!["reconstruct", "scene.json"]),
+        ("spec.json", vec!["simulate", "spec.json"]),
+        ("spec.json", vec!["simulate", "spec.json", "-o", "new.json", "--truth"]),
+        ("poses.csv", import),
+    ];
+    for (input, command) in commands {
+        let old = fs::read(folder.path().join(input)).unwrap();
+        for prefix in ["", "./", "symbolic-", "hard-"] {
+            let output = format!("{prefix}{input}");
+            let option = if command.last() == Some(&"--truth") { None } else { Some("-o") };
+            let arguments: Vec<&str> =
+                command.iter().copied().chain(option).chain([output.as_str()]).collect();
+            let message = refusal(&output, &smash(folder.path(), &arguments));
+            assert!(message.contains("choose another name"), "{message}");
+            assert_eq!(fs::read(folder.path().join(input)).unwrap(), old, "{arguments:?}");
+            assert!(!folder.path().join("new.json").exists(), "{arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn two_outputs_do_not_share_a_file() {
+    let folder = folder_of_inputs();
+    symlink("new.json", folder.path().join("link.json")).unwrap();
+    for truth in ["new.json", "./new.json", "link.json"] {
+        let arguments = ["simulate", "spec.json", "-o", "new.json", "--truth", truth];
+        let message = refusal(truth, &smash(folder.path(), &arguments));
+        assert!(message.contains("choose another name"), "{message}");
+        assert!(!folder.path().join("new.json").exists());
+    }
+    let message =
+        refusal("-", &smash(folder.path(), &["simulate", "spec.json", "-o", "-", "--truth", "-"]));
+    assert!(message.contains("can't share"), "{message}");
+}
+
+/// The truth can't be written: then the old scene stays too.
+#[test]
+fn of_two_outputs_none_changes_if_one_fails() {
+    let folder = folder_of_inputs();
+    fs::write(folder.path().join("old.json"), "old").unwrap();
+    let arguments = ["simulate", "spec.json", "-o", "old.json", "--truth", "/dev/full"];
+    let message = refusal("full", &smash(folder.path(), &arguments));
+    assert!(!message.contains("nothing was changed"), "a stream may hold a part: {message}");
+    assert_eq!(fs::read_to_string(folder.path().join("old.json")).unwrap(), "old");
+}
+
+/// The link stays a link, and what it leads to keeps its mode.
+#[test]
+fn an_output_is_written_through_a_link() {
+    let folder = folder_of_inputs();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("far")).unwrap();
+    fs::write(path("far/old.json"), "old").unwrap();
+    fs::set_permissions(path("far/old.json"), fs::Permissions::from_mode(0o640)).unwrap();
+    for target in ["far/old.json", "far/new.json"] {
+        symlink(target, path("link.json")).unwrap();
+        let run = smash(folder.path(), &["simulate", "spec.json", "-o", "link.json"]);
+        assert!(run.status.success(), "{}", run.stderr);
+        assert!(path("link.json").is_symlink());
+        assert!(fs::read_to_string(path(target)).unwrap().contains("smash.scene/1"));
+        fs::remove_file(path("link.json")).unwrap();
+    }
+    assert_eq!(fs::metadata(path("far/old.json")).unwrap().permissions().mode() & 0o777, 0o640);
+}
+
+/// A command that is proposed can be pasted, and can work.
+#[test]
+fn the_next_steps_are_words_of_a_shell() {
+    let folder = folder_of_inputs();
+    let told = smash(folder.path(), &["simulate", "spec.json", "-o", "it's new.json"]).stdout;
+    assert!(told.contains(r"smash reconstruct 'it'\''s new.json'"), "{told}");
+    let told = smash(folder.path(), &["reconstruct", "it's new.json"]).stdout;
+    assert!(told.contains(r"smash reconstruct 'it'\''s new.json' --preset"), "{told}");
+    // Standard input is gone when the next command runs.
+    let output = Command::new(env!("CARGO_BIN_EXE_smash"))
+        .args(["reconstruct", "-"])
+        .stdin(File::open(folder.path().join("scene.json")).unwrap())
+        .output()
+        .unwrap();
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && !told.contains("smash reconstruct"), "{told}");
+}
+
+/// Two texts for one stream: neither is dropped in silence.
+#[test]
+fn json_has_no_place_beside_a_scene_on_standard_output() {
+    let folder = folder_of_inputs();
+    let import: Vec<&str> = ["import", "poses.csv"].into_iter().chain(FALL).collect();
+    for command in [vec!["simulate", "spec.json"], import] {
+        let arguments = [command, vec!["-o", "-", "--json"]].concat();
+        let message = refusal("json", &smash(folder.path(), &arguments));
+        assert!(message.contains("leave `--json` out"), "{message}");
+    }
+}
+
+/// A negative value isn't taken for an option: it gets the message of its own rule.
+#[test]
+fn options_with_impossible_values_are_explained() {
+    let folder = folder_of_inputs();
+    let import = |more: [&'static str; 2]| {
+        let command = ["import", "poses.csv", "-o", "new.json"].into_iter().chain(FALL);
+        smash(folder.path(), &command.chain(more).collect::<Vec<_>>())
+    };
+    assert!(refusal("gravity", &import(["--gravity", "-9.81"])).contains("--gravity: -9.81"));
+    assert!(refusal("fps", &import(["--fps", "-60"])).contains("--fps: -60"));
+    let axis = smash(
+        folder.path(),
+        &["import", "poses.csv", "-o", "new.json", "--length-unit", "m", "--up", "w"],
+    );
+    assert_eq!(axis.status.code(), Some(2));
+    assert!(axis.stderr.contains("x, y, z, -x, -y, -z"), "{}", axis.stderr);
+    let seed = smash(folder.path(), &["simulate", "spec.json", "-o", "new.json", "--seed", "-1"]);
+    assert_eq!(seed.status.code(), Some(2));
+    assert!(seed.stderr.contains("a whole number from 0"), "{}", seed.stderr);
 }

@@ -119,3 +119,20 @@ fn rotation_can_be_run_backwards() {
     assert!(back.angle_to(&askew()) < 1e-9);
     assert!(there.angle_to(&askew()) > 0.1, "it did turn");
 }
+
+/// What has no answer, or only one after ages, gets NaN at once.
+#[test]
+fn a_turn_without_bound_ends() {
+    let moments = Vector3::new(1.0, 2.0, 3.0);
+    let k = Vector3::new(0.1, 0.2, 0.3);
+    for (inertia, k, duration_s) in [
+        (Vector3::new(0.0, 2.0, 3.0), k, 1.0),
+        (moments, Vector3::repeat(f64::INFINITY), 1.0),
+        (moments, Vector3::repeat(f64::NAN), 1.0),
+        (moments, k, f64::MAX),
+        (moments, k, 1e8),
+    ] {
+        let turned = rotate_freely(&askew(), &inertia, &k, duration_s);
+        assert!(turned.coords.iter().all(|component| component.is_nan()), "{turned}");
+    }
+}

@@ -20,7 +20,7 @@ fn options() -> ImportOptions {
 }
 
 fn import(text: &str, options: &ImportOptions) -> Result<SceneFile> {
-    import_csv(&[Table { file: "poses.csv", text }], options)
+    import_csv(&[Table { file: "poses.csv", text }], options).map(|import| import.scene_file)
 }
 
 /// Lengths of a table in cm become m: positions, shapes and the plane.
@@ -50,7 +50,7 @@ fn three_layouts_give_the_same_scene() {
     let b = Table { file: "folder/b.csv", text: "Time , X, Y, Z\r\n0,4,5,6\r\n0.1,4,5,7\r\n" };
     let from_long = import(long, &options).unwrap();
     assert_eq!(import(wide, &options).unwrap(), from_long);
-    assert_eq!(import_csv(&[a, b], &options).unwrap(), from_long);
+    assert_eq!(import_csv(&[a, b], &options).unwrap().scene_file, from_long);
     assert_eq!(from_long.bodies[1].observations.as_ref().unwrap().len(), 2);
 }
 
@@ -77,12 +77,15 @@ fn what_a_table_does_not_say_is_asked_for() {
         ("time,x,y,z,x\n0,0,0,0,0\n", "header", "`x` twice"),
         ("time,x,y,z,a_x,a_y,a_z\n0,0,0,0,0,0,0\n", "header", "in two ways"),
         ("time;x;y;z\n0;0;0;0\n", "header", "commas between the columns"),
-        ("", "header", "neither `frame` nor `time`"),
         ("time,x,y,z\n0,0,0,0\n1,0,zero,0\n", "line 3, column `y`", "`zero` is no finite number"),
         ("time,x,y,z\n0,0,0,NaN\n", "line 2, column `z`", "leave empty what wasn't measured"),
         ("time,x,y,z\n0,0,,0\n", "line 2, column `y`", "is empty"),
         ("time,x,y,z\n,0,0,0\n", "line 2, column `time`", "each pose needs its time"),
         ("time,x,y,z\n0,0,0\n", "line 2", "has 3 cells, but the header has 4"),
+        ("time,x,y,z\r\n0,0,0,0\r\n1,0,zero,0\r\n", "line 3, column `y`", "`zero`"),
+        ("time,x,y,z\r0,0,0,0\r1,0,zero,0\r", "line 3, column `y`", "`zero`"),
+        ("time,x,y,z\n\n\n0,0,zero,0\n", "line 4, column `y`", "`zero`"),
+        ("time,x,y,z\r\n\r\n0,0,0\r\n", "line 3", "has 3 cells"),
     ];
     for (text, place, words) in cases {
         let error = import(text, &options()).unwrap_err();
@@ -139,4 +142,66 @@ fn the_command_writes_a_scene_that_reads() {
     let scene = Scene::read(&scene).unwrap();
     assert_eq!(scene.bodies()[0].name, "ball");
     assert_eq!(scene.plane().unwrap().name, "floor");
+}
+
+#[test]
+fn a_table_without_rows_is_called_so() {
+    for text in ["", " \r\n", "time,x,y,z", "time,x,y,z\r\n", "time,x,y,z\n0,,,\n"] {
+        let error = import(text, &options()).unwrap_err();
+        assert!(error.to_string().starts_with("poses.csv: has no rows"), "{text:?}: {error}");
+    }
+}
+
+/// A name in each row, or a pose in each column: the third body ends it, not hours of comparing.
+#[test]
+fn the_third_body_is_one_too_many() {
+    let rows: String = (0..300_000).map(|row| format!("0,body{row},0,0,0\n")).collect();
+    let error = import(&format!("time,body,x,y,z\n{rows}"), &options()).unwrap_err();
+    assert_eq!(error.to_string().split(": ").nth(1), Some("line 4"), "{error}");
+    assert!(error.problem().contains("`body2` is one body too many"), "{error}");
+    let columns: String = (0..300_000).map(|column| format!(",b{column}_x")).collect();
+    let error = import(&format!("time{columns}\n"), &options()).unwrap_err();
+    assert!(error.problem().contains("300001 columns"), "{error}");
+}
+
+/// Rules of the scene name what the user wrote: a line of the table, or an option.
+#[test]
+fn rules_of_the_scene_point_to_the_table_or_the_option() {
+    let text = "time,x,y,z,qw,qx,qy,qz\r\n0,0,0,1,1,0,0,0\r\n1,0,0,1,1,0,0,0\r\n2,0,0,1,1,0,0,0\r\n3,0,0,1,1,0,0,0\r\n";
+    let good = ImportOptions { length_unit: LengthUnit::Metre, ..options() };
+    let refused = |text: &str, options: &ImportOptions| {
+        let import = import_csv(&[Table { file: "poses.csv", text }], options).unwrap();
+        import.check().unwrap_err().to_string()
+    };
+    let ball = |radius| vec![("a".to_owned(), Shape::Sphere { radius })];
+    for (found, place) in [
+        (
+            refused(&text.replace("2,0,0,1,1", "2,0,1e9,1,1"), &good),
+            "poses.csv: line 4, column `y`: ",
+        ),
+        (
+            refused(&text.replace("2,0,0,1,1", "2,0,0,1,3"), &good),
+            "poses.csv: line 4, the quaternion: ",
+        ),
+        (
+            refused(&text.replace("2,0,0,1,1", "1,0,0,2,1"), &good),
+            "poses.csv: line 4: has the time of line 3 of poses.csv, 1 s",
+        ),
+        (refused(&text.replace("2,0,0", "2e11,0,0"), &good), "poses.csv: line 4, time: "),
+        (refused(text, &ImportOptions { gravity_m_s2: -9.81, ..good.clone() }), "--gravity: "),
+        (refused(text, &ImportOptions { up: [0.0, 0.0, 2.0], ..good.clone() }), "--up: "),
+        (refused(text, &ImportOptions { shapes: ball(-1.0), ..good.clone() }), "--sphere a: "),
+    ] {
+        assert!(found.starts_with(place), "{place} isn't in {found}");
+    }
+}
+
+#[test]
+fn warnings_point_to_the_table() {
+    let text = "time,x,y,z\r\n0,0,0,1\r\n2,0,0,1\r\n1,0,0,1\r\n3,0,0,1\r\n4,0,0,1\r\n";
+    let import = import_csv(&[Table { file: "poses.csv", text }], &options()).unwrap();
+    let warnings = import.check().unwrap().warnings().to_vec();
+    let is_named = |text: &str| text.contains("line 4 of poses.csv is earlier");
+    assert!(warnings.iter().any(|warning| is_named(&warning.text)), "{warnings:?}");
+    assert!(warnings.iter().all(|warning| !warning.text.contains("bodies[")), "{warnings:?}");
 }

@@ -171,3 +171,19 @@ fn the_doctor_names_the_command_that_gets_what_is_missing() {
     let last = said.lines().last().unwrap();
     assert!(last.contains("sudo apt-get install g++"), "{last}");
 }
+
+/// JSON is UTF-8, paths needn't be.
+#[test]
+fn the_doctor_survives_a_path_that_is_no_text() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let odd = folder.path().join(std::ffi::OsStr::from_bytes(b"bin-\xff"));
+    fs::create_dir(&odd).unwrap();
+    for name in ["cmake", "g++", "cargo", "clang-format", "pkg-config"] {
+        fs::write(odd.join(name), "").unwrap();
+    }
+    let output = Command::new(SMASH).args(["doctor", "--json"]).env("PATH", &odd).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let health: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(health["dependencies"].to_string().contains("bin-\u{fffd}"), "{health}");
+}

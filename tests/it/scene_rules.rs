@@ -22,7 +22,7 @@ const RULES: &[Rule] = &[
     (|s| remove(s, "fps"), "bodies[0].observations[0]", &["no `fps`", "add `fps`"]),
     (|s| s["gravity"] = json!(-9.81), "gravity", &["-9.81", "m/s²"]),
     (|s| s["gravity"] = json!(1e300), "gravity", &["1e300", "m/s²"]),
-    (|s| s["up"] = json!([0, 2, 0]), "up", &["length 2", "[0.000000, 1.000000, 0.000000]"]),
+    (|s| s["up"] = json!([0, 2, 0]), "up", &["length 2", "[0, 1, 0]"]),
     (|s| s["up"] = json!([0, 0, 0]), "up", &["length 0", "length 1"]),
     (|s| s["up"] = json!([0, 1]), "up", &["a list of 2", "a list of 3"]),
     (|s| s["up"] = json!("y"), "up", &["\"y\"", "a list of 3"]),

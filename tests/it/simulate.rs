@@ -465,3 +465,42 @@ fn an_independent_engine_moves_the_bodies_the_same_way() {
     }
     assert!(worst_wrong_degrees > 5.0, "{worst_wrong_degrees}°");
 }
+
+/// Neither a film of years nor a collision aeons off it costs time or memory.
+#[test]
+fn frames_of_endless_films_are_bounded() {
+    let endless = RegularSampling::every_frame(u32::MAX);
+    let frames = endless.frame_numbers(1e9);
+    assert_eq!(frames.len(), 200_000);
+    assert!(frames.contains(&999_999_999) && frames.contains(&1_000_000_001), "nearest first");
+    for off_film in [1e300, f64::INFINITY] {
+        let frames = endless.frame_numbers(off_film);
+        assert_eq!((frames.len(), frames.last()), (100_000, Some(&(u32::MAX - 1))));
+    }
+    let sparse = RegularSampling { interval: 7, frame_count: 49, gap: None };
+    assert_eq!(sparse.frame_numbers(f64::INFINITY).len(), 7, "one every 7 frames of 49");
+    for off_film in [-1e300, f64::NEG_INFINITY] {
+        assert_eq!(endless.frame_numbers(off_film).first(), Some(&0));
+    }
+}
+
+/// By stepping, the same frames as by trying each of the film.
+#[test]
+fn frames_are_those_at_whole_intervals_from_the_gap() {
+    for interval in 1..6 {
+        for gap in 0..8 {
+            for collision in -20..60 {
+                let collision_frame = f64::from(collision) / 2.0 + 0.1;
+                let sampling = RegularSampling { interval, frame_count: 20, gap: Some(gap) };
+                let (interval, gap) = (i64::from(interval), i64::from(gap));
+                let last = (collision_frame - gap as f64 / 2.0).round() as i64;
+                let is_seen = |&frame: &u32| {
+                    let (before, after) = (last - i64::from(frame), i64::from(frame) - last - gap);
+                    [before, after].iter().any(|off| *off >= 0 && off % interval == 0)
+                };
+                let expected: Vec<u32> = (0..20).filter(is_seen).collect();
+                assert_eq!(sampling.frame_numbers(collision_frame), expected, "{sampling:?}");
+            }
+        }
+    }
+}

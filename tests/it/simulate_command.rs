@@ -123,6 +123,7 @@ fn a_mistake_is_named_with_its_file_place_and_mend() {
         ("\"restitutoin\"", "\"restitution\"", "did you mean `restitution`?"),
         ("\"gausian\"", "\"gaussian\"", "did you mean `gaussian`?"),
         ("\"regular\": 4, \"x\"", "\"regular\"", "observations"),
+        ("\"gaussian\", \"x\": {\"gaussian\"", "{\"gaussian\"", "such as {\"gaussian\": {"),
         ("\"seed\": -1", "\"seed\": 1", "seed"),
         ("\"velocity\": [0.9, 0.1]", "\"velocity\": [0.9, 0.1, 0.3]", "bodies[0].velocity"),
         ("\"restitution\": 1.2", "\"restitution\": 0.6", "from 0 (no bounce) to 1"),

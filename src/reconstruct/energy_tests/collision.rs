@@ -9,7 +9,7 @@ use crate::bridge::ffi::{
     PaperBody, PaperBodyUnknowns, PaperFlight, PaperObservation, PaperPhase, PaperScene,
     PaperUnknowns,
 };
-use crate::reconstruct::gravity_frame::to_wxyz;
+use crate::rigid_body::quaternion::to_wxyz;
 
 /// A collision seen only at its own instant, where it is: no flight matters, and what is left are
 /// eq. 11 to 14 and 17, written here a second time.

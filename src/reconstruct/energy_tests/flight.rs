@@ -4,8 +4,8 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::{HALF_OBSERVED, ROUNDING, cuboids, seen_briefly, simulated, turn};
 use crate::bridge::ffi::{self, PaperPhase};
-use crate::reconstruct::gravity_frame::from_wxyz;
 use crate::rigid_body::omega_in_world;
+use crate::rigid_body::quaternion::from_wxyz;
 use crate::simulate::SimulationSpec;
 
 /// Equal steps of a quarter frame at most: 1.1 frames take five, and so it goes back in time. Both

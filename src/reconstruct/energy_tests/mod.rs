@@ -9,13 +9,13 @@ mod truth;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::gravity_frame::{from_wxyz, to_wxyz};
 use super::internal::InternalScene;
 use crate::Scene;
 use crate::bridge::ffi::{
     self, PaperBodyUnknowns, PaperFlight, PaperPhase, PaperScene, PaperUnknowns,
 };
 use crate::rigid_body::RigidBody;
+use crate::rigid_body::quaternion::{from_wxyz, to_wxyz};
 use crate::simulate::{Sampling, SimulationSpec, simulate};
 
 const PHASES: [PaperPhase; 3] =

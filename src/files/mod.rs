@@ -1,0 +1,85 @@
+//! Reading and writing whole files: an output appears complete or not at all.
+
+mod output;
+mod place;
+
+pub use output::{Output, check_distinct, write_together};
+
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use crate::{Error, ErrorKind, Result};
+
+/// The largest input that is read, in bytes; beyond it memory, not physics, would set the limit.
+pub const LARGEST_INPUT_BYTES: u64 = 64 << 20;
+
+/// The name that a message uses for `path`; `-` is a standard stream.
+pub fn display_name(path: &Path, stream: &str) -> String {
+    if path == Path::new("-") { format!("({stream})") } else { path.display().to_string() }
+}
+
+/// `text` as one word of a shell's command line, for commands that a message proposes.
+pub fn shell_word(text: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_-./+,:=@%".contains(c);
+    // A leading hyphen would make it an option.
+    let folder = if text.starts_with('-') { "./" } else { "" };
+    if !text.is_empty() && text.chars().all(is_plain) {
+        format!("{folder}{text}")
+    } else {
+        format!("'{folder}{}'", text.replace('\'', r"'\''"))
+    }
+}
+
+/// Reads the text of `path`, or of standard input for `-`.
+///
+/// # Errors
+/// The file can't be read, is larger than [`LARGEST_INPUT_BYTES`], or isn't UTF-8.
+pub fn read_text(path: &Path) -> Result<String> {
+    let name = display_name(path, "standard input");
+    let unreadable = |error: io::Error| {
+        Error::new(ErrorKind::Read, format!("can't be read: {}", plain(&error)))
+            .in_file(&name)
+            .mend("check the path and its permissions")
+    };
+    let source: Box<dyn Read> = if path == Path::new("-") {
+        Box::new(io::stdin().lock())
+    } else {
+        Box::new(File::open(path).map_err(unreadable)?)
+    };
+    let mut bytes = Vec::new();
+    source.take(LARGEST_INPUT_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > LARGEST_INPUT_BYTES {
+        let problem = format!("is larger than {} MiB", LARGEST_INPUT_BYTES >> 20);
+        return Err(Error::new(ErrorKind::Read, problem)
+            .in_file(&name)
+            .mend("keep the poses around the collision, or every n-th of them"));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Error::new(ErrorKind::Parse, format!("byte {at} isn't UTF-8 text"))
+            .in_file(&name)
+            .mend("save the file as UTF-8")
+    })
+}
+
+/// Writes to standard output without the panic of `println!` on a closed pipe.
+///
+/// # Errors
+/// The stream is closed or full.
+pub fn print_bytes(bytes: &[u8]) -> Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
+        Error::new(ErrorKind::Write, format!("can't be written: {}", plain(&error)))
+            .in_file("(standard output)")
+            .mend("keep the reading end open, or write to a file with -o")
+    })
+}
+
+/// The system's words without its error number.
+fn plain(error: &io::Error) -> String {
+    let text = error.to_string();
+    let cut = text.find(" (os error").unwrap_or(text.len());
+    let mut chars = text[..cut].chars();
+    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
+}
