@@ -1,10 +1,9 @@
 //! Did the bodies push each other, or is the jump in velocity only noise?
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector};
 
 use super::internal::InternalScene;
 use super::phases::Solved;
-use crate::bridge::ffi::PaperObservation;
 
 /// Which bodies' jumps stand out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,12 +21,12 @@ pub(super) fn visible(
     jumps_m_s: &[f64],
     position_rmse: f64,
 ) -> Push {
-    let fps = internal.paper.frames_per_second;
-    let mut visible = jumps_m_s.iter().zip(&internal.paper.bodies).map(|(jump_m_s, body)| {
-        let noise = position_rmse * spare_correction(body.observations.len());
-        let std = jump_std_per_noise(&body.observations, solved.collision_frames, fps);
+    let stds = jump_stds_per_noise(internal, solved.collision_frames);
+    let sigmas = visible_sigmas(solved.segments);
+    let mut visible = jumps_m_s.iter().enumerate().map(|(index, jump_m_s)| {
+        let noise = position_rmse * spare_correction(internal);
         // Too few poses to tell: the jump is what the fit says it is.
-        *jump_m_s > std.map_or(0.0, |std| visible_sigmas(solved.segments) * std * noise)
+        *jump_m_s > stds.as_ref().map_or(0.0, |stds| sigmas * stds[index] * noise)
     });
     let first = visible.next().unwrap_or(false);
     let rest: Vec<bool> = visible.collect();
@@ -41,24 +40,41 @@ fn visible_sigmas(segments: usize) -> f64 {
     (7.81 + 2.4 * (segments.max(1) as f64).ln()).sqrt()
 }
 
-/// √(n / (n − 3)): a flight of n poses uses up three of each coordinate's residuals.
-fn spare_correction(poses: usize) -> f64 {
-    (poses as f64 / (poses as f64 - 3.0).max(1.0)).sqrt()
+/// √(n / (n − p)): each coordinate's p parameters use up as many of its n residuals.
+fn spare_correction(internal: &InternalScene) -> f64 {
+    let poses: usize = internal.paper.bodies.iter().map(|body| body.observations.len()).sum();
+    let spare = poses as f64 - parameters(internal) as f64;
+    (poses as f64 / spare.max(1.0)).sqrt()
 }
 
-/// The standard deviation of a coordinate of v⁺ − v⁻ in m/s per m of noise, from the linear fit of
-/// p = b₄ + v± t on both sides: √(cᵀ N⁻¹ c) (the Gauss-Markov theorem).
-fn jump_std_per_noise(
-    observations: &[PaperObservation],
-    collision_frames: f64,
-    frames_per_second: f64,
-) -> Option<f64> {
-    let normal_matrix = observations.iter().fold(Matrix3::zeros(), |sum, observation| {
-        let time_s = (observation.time_frames - collision_frames) / frames_per_second;
-        let row = Vector3::new(1.0, time_s.min(0.0), time_s.max(0.0));
-        sum + row * row.transpose()
-    });
-    let contrast = Vector3::new(0.0, -1.0, 1.0);
-    let variance = contrast.dot(&(normal_matrix.try_inverse()? * contrast));
-    (variance > 0.0).then(|| variance.sqrt())
+/// Of a coordinate: b₄, v⁻ and v⁺ of each body, and the tilt of gravity that all share.
+fn parameters(internal: &InternalScene) -> usize {
+    3 * internal.paper.bodies.len() + usize::from(internal.paper.gravity_m_s2 > 0.0)
+}
+
+/// The standard deviation of a coordinate of each body's v⁺ − v⁻ in m/s per m of noise, from the
+/// linear fit of p = b₄ + v± t + tilt · t²: √(cᵀ N⁻¹ c) (the Gauss-Markov theorem). A free tilt of
+/// gravity bends a path much as a jump does, and costs certainty.
+fn jump_stds_per_noise(internal: &InternalScene, collision_frames: f64) -> Option<Vec<f64>> {
+    let size = parameters(internal);
+    let mut normal = DMatrix::<f64>::zeros(size, size);
+    for (index, body) in internal.paper.bodies.iter().enumerate() {
+        for observation in &body.observations {
+            let time_s = internal.seconds(observation.time_frames - collision_frames);
+            let mut row = DVector::<f64>::zeros(size);
+            row[3 * index] = 1.0;
+            row[3 * index + 1] = time_s.min(0.0);
+            row[3 * index + 2] = time_s.max(0.0);
+            if internal.paper.gravity_m_s2 > 0.0 {
+                row[size - 1] = time_s * time_s;
+            }
+            normal += &row * row.transpose();
+        }
+    }
+    let inverse = normal.cholesky()?.inverse();
+    let variance = |index: usize| {
+        let (before, after) = (3 * index + 1, 3 * index + 2);
+        inverse[(before, before)] + inverse[(after, after)] - 2.0 * inverse[(before, after)]
+    };
+    Some((0..internal.paper.bodies.len()).map(|index| variance(index).max(0.0).sqrt()).collect())
 }

@@ -80,11 +80,17 @@ fn a_fall_without_a_bounce_is_flagged() {
         let t = pose.frame.unwrap() / 120.0;
         pose.position = [0.3 * t, 2.0 - 4.905 * t * t, 0.0];
     }
-    let result = solve(add_noise(file, &NOISE, 3));
-    assert!(result.flags.contains(&Flag::NoVisibleImpulse), "{:?}", result.flags);
-    assert_eq!(result.restitution.value, None);
-    assert!(result.restitution.reason.is_some());
-    assert_eq!(result.contact_point, None);
+    let results = (0..20).map(|seed| solve(add_noise(file.clone(), &NOISE, seed)));
+    let (flagged, alarms): (Vec<_>, Vec<_>) =
+        results.partition(|result| result.flags.contains(&Flag::NoVisibleImpulse));
+    for result in &flagged {
+        assert_eq!(result.restitution.value, None);
+        assert!(result.restitution.reason.is_some());
+        assert_eq!(result.contact_point, None);
+    }
+    // At most one search in twenty by construction: three or more of 20 would come about once in
+    // 13 such tests; these seeds are fixed.
+    assert!(alarms.len() < 3, "{} of 20", alarms.len());
 }
 
 /// The points that touch turn with the body: without its spin their velocity isn't known. A smooth
@@ -120,11 +126,12 @@ fn the_contact_point_lies_on_the_plane() {
 #[test]
 fn a_swapped_quaternion_order_is_a_poor_fit() {
     let exact = seen(SimulationSpec::random_cuboids(2), every(9, 90));
-    let mut swapped = exact.clone();
+    let annotated = add_noise(exact, &NOISE, 0);
+    let mut swapped = annotated.clone();
     for pose in swapped.bodies.iter_mut().flat_map(|b| b.observations.iter_mut().flatten()) {
         let [w, x, y, z] = pose.orientation.unwrap();
         pose.orientation = Some([x, y, z, w]);
     }
-    assert!(!solve(exact).flags.contains(&Flag::PoorFit));
+    assert!(!solve(annotated).flags.contains(&Flag::PoorFit));
     assert!(solve(swapped).flags.contains(&Flag::PoorFit));
 }
