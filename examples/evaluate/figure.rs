@@ -79,7 +79,8 @@ fn draw_panel(
         let x = |score: &Score| f64::from(score.interval) + 0.35 * (index as f64 - 1.5);
         let y = |value: f64| value.clamp(SMALLEST, LARGEST);
         let dots = of_noise.iter().flat_map(|score| {
-            score.outcomes.iter().map(move |outcome| (x(score), y(error(outcome))))
+            let errors = score.outcomes.iter().map(error).filter(|error| error.is_finite());
+            errors.map(move |error| (x(score), y(error)))
         });
         chart.draw_series(dots.map(|dot| Circle::new(dot, 2, colour.mix(0.35).filled())))?;
         let medians: Vec<(f64, f64)> =

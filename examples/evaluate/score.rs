@@ -64,8 +64,8 @@ pub struct Score {
 
 /// The table's heading, in Markdown.
 pub const HEADING: &str = "\
-| noise | interval | method | scenes | error of m: median / 90 % | error of c: median / 90 % | right segment | flagged |
-|---|---|---|---|---|---|---|---|";
+| noise | interval | method | scenes | error of m: median / 90 % | error of c: median / 90 % | right segment | flagged | null |
+|---|---|---|---|---|---|---|---|---|";
 
 impl Score {
     /// A row of the table.
@@ -79,7 +79,7 @@ impl Score {
             eprintln!("failed: {failure}");
         }
         format!(
-            "| {} | {} | {} | {count} | {} / {} | {} / {} | {} | {} |",
+            "| {} | {} | {} | {count} | {} / {} | {} / {} | {} | {} | {} |",
             self.noise_name,
             self.interval,
             self.method,
@@ -89,12 +89,18 @@ impl Score {
             two_digits(self.quantile(0.9, |o| o.restitution_error)),
             percent(|o| o.right_segment),
             percent(|o| o.flagged),
+            percent(|o| o.mass_ratio_error.is_infinite()),
         )
     }
 
-    /// The quantile of an error over the scenes, linear between them.
+    /// The quantile of an error over the scenes that have a number, linear between them; the other
+    /// scenes are counted as null.
     pub fn quantile(&self, share: f64, error: impl Fn(&Outcome) -> f64) -> f64 {
-        let mut errors: Vec<f64> = self.outcomes.iter().map(error).collect();
+        let mut errors: Vec<f64> =
+            self.outcomes.iter().map(error).filter(|e| e.is_finite()).collect();
+        if errors.is_empty() {
+            return f64::NAN;
+        }
         errors.sort_by(f64::total_cmp);
         let place = share * (errors.len() - 1) as f64;
         let (low, high) = (errors[place.floor() as usize], errors[place.ceil() as usize]);

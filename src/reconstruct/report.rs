@@ -32,7 +32,13 @@ pub(super) fn reconstruction(
     let states = states(scene, internal, solved)?;
     let fit = fit(internal, solved, scene.noise())?;
     let jumps: Vec<f64> = states.iter().map(States::jump_m_s).collect();
-    let push = push::visible(internal, solved, &jumps, fit.position_rmse);
+    let push = push::visible(
+        internal,
+        solved,
+        &jumps,
+        scene.noise().map(|noise| noise.position),
+        fit.position_rmse,
+    );
     let impulse = world_vector(internal, solved.unknowns.impulse);
     let contact = contact(scene, internal, solved, &states, &impulse).filter(|_| push.any);
     let mass_ratio = (states.len() == 2).then(|| match push.any {

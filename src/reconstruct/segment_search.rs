@@ -85,3 +85,56 @@ fn score(scene: &PaperScene, criterion: SegmentCriterion, solution: &PaperSoluti
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bridge::ffi::{PaperBodyUnknowns, PaperFlight, PaperUnknowns};
+
+    fn solution(positions: &[[f64; 3]]) -> PaperSolution {
+        let flight = PaperFlight { parabola: [0.0; 3], angular_momentum: [0.0; 3] };
+        let body = |position: &[f64; 3]| PaperBodyUnknowns {
+            position: *position,
+            orientation: [1.0, 0.0, 0.0, 0.0],
+            before: flight,
+            after: flight,
+        };
+        let unknowns = PaperUnknowns {
+            bodies: positions.iter().map(body).collect(),
+            tilt: [0.0; 2],
+            contact_point: [0.0; 3],
+            impulse: [0.0; 3],
+            mass_ratio: 1.0,
+        };
+        let (cost_initial, cost_final) = (7.0, 0.25);
+        PaperSolution { unknowns, cost_initial, cost_final, iterations: 1, converged: true }
+    }
+
+    /// A plane three metres up along y.
+    fn scene() -> PaperScene {
+        PaperScene {
+            frames_per_second: 60.0,
+            gravity_m_s2: 9.81,
+            bodies: Vec::new(),
+            plane_normal: [0.0, 1.0, 0.0],
+            plane_height_m: 3.0,
+        }
+    }
+
+    /// SMASH section 4.1: the closest connection points of the parabolas; on a plane, whichever
+    /// side of it the centre is.
+    #[test]
+    fn distance_is_that_of_the_centres_or_from_the_plane() {
+        let by_distance = |positions: &[[f64; 3]]| {
+            score(&scene(), SegmentCriterion::Distance, &solution(positions))
+        };
+        assert_eq!(by_distance(&[[1.0, 2.0, 2.0], [1.0, -1.0, 6.0]]), 5.0);
+        assert_eq!(by_distance(&[[9.0, 3.5, 0.0]]), 0.5);
+        assert_eq!(by_distance(&[[9.0, 2.5, 0.0]]), 0.5);
+    }
+
+    #[test]
+    fn cost_is_what_phase_1_ends_with() {
+        assert_eq!(score(&scene(), SegmentCriterion::Cost, &solution(&[[0.0; 3]])), 0.25);
+    }
+}
