@@ -7,7 +7,7 @@ use super::fit::fit;
 use super::flags::{Doubts, flags};
 use super::internal::InternalScene;
 use super::phases::Solved;
-use super::push::{self, Push};
+use super::push;
 use super::result::{BodyResult, Estimate, Preset, RESULT_SCHEMA, Reconstruction};
 use super::scatter::position_scatter_m;
 use super::states::{States, settle_on_line, states};
@@ -45,7 +45,7 @@ pub(super) fn reconstruction(
         true => estimate(solved.unknowns.mass_ratio),
         false => unknown(NO_IMPULSE),
     });
-    let restitution = restitution(scene, contact, &states, push);
+    let restitution = restitution(scene, contact, &states);
     let collision_time_s = internal.seconds(solved.collision_frames);
     let doubts = Doubts {
         mass_ratio: (states.len() == 2).then_some(solved.unknowns.mass_ratio),
@@ -105,11 +105,11 @@ fn tells_contact_point(internal: &InternalScene, states: &[States]) -> bool {
         || states.iter().all(States::surface_velocity_known)
 }
 
-fn restitution(scene: &Scene, contact: Option<Contact>, states: &[States], push: Push) -> Estimate {
+fn restitution(scene: &Scene, contact: Option<Contact>, states: &[States]) -> Estimate {
     if states.len() == 1 && scene.plane().is_none() {
         return unknown(NO_PARTNER);
     }
-    let Some(contact) = contact.filter(|_| push.any) else { return unknown(NO_IMPULSE) };
+    let Some(contact) = contact else { return unknown(NO_IMPULSE) };
     if !states.iter().all(States::surface_velocity_known) {
         return unknown(NO_SURFACE);
     }
