@@ -69,12 +69,12 @@ impl Flag {
 
 /// Without a stated noise: an annotator sees a pose that is 0.1 rad off.
 const VISIBLE_ANGLE_RAD: f64 = 0.1;
-/// Without a stated noise: positions may lie twice as far off as they scatter about each flight's
-/// own parabola, and always by a hundredth of the shortest extent, which costs nothing to see.
-const POOR_SCATTERS: f64 = 2.0;
+/// Without a stated noise: positions may lie three times as far off as they scatter about the
+/// smoothest flight's own parabola, and always by a hundredth of the shortest extent.
+const POOR_SCATTERS: f64 = 3.0;
 const TOLERATED_SHARE_OF_EXTENT: f64 = 0.01;
-/// Without a stated noise and without spare poses to estimate it: a quarter of the extent.
-const VISIBLE_SHARE_OF_EXTENT: f64 = 0.25;
+/// Without a stated noise, whatever the scatter: an annotator sees a tenth of the extent.
+const VISIBLE_SHARE_OF_EXTENT: f64 = 0.1;
 /// With a stated noise: residuals of twice the noise. The paper's fixed collision time alone makes
 /// them larger than the noise.
 const POOR_REDUCED_CHI2: f64 = 4.0;
@@ -118,10 +118,10 @@ fn is_poor(scene: &Scene, fit: &Fit, scatter_m: Option<f64>) -> bool {
     }
     let extent_m =
         scene.bodies().iter().map(|b| b.shape.shortest_extent_m()).fold(f64::MAX, f64::min);
-    let tolerated_m = match scatter_m {
-        Some(scatter) => (POOR_SCATTERS * scatter).max(TOLERATED_SHARE_OF_EXTENT * extent_m),
-        None => VISIBLE_SHARE_OF_EXTENT * extent_m,
-    };
+    let visible_m = VISIBLE_SHARE_OF_EXTENT * extent_m;
+    let tolerated_m = scatter_m.map_or(visible_m, |scatter| {
+        (POOR_SCATTERS * scatter).max(TOLERATED_SHARE_OF_EXTENT * extent_m).min(visible_m)
+    });
     fit.position_rmse > tolerated_m
         || fit.orientation_rmse.is_some_and(|angle| angle > VISIBLE_ANGLE_RAD)
 }
