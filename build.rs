@@ -18,7 +18,7 @@ fn main() {
         return;
     }
     let include = ceres_include_folder();
-    let mut build = cxx_build::bridge("src/bridge.rs");
+    let mut build = cxx_build::bridge("src/bridge/paper.rs");
     build
         .file("cpp/bridge.cc")
         .file("cpp/problem.cc")

@@ -1,7 +1,7 @@
 // The paper's energy (SMASH eq. 16) as a ceres::Problem, phase by phase.
 #pragma once
 
-#include "smash/src/bridge.rs.h"
+#include "smash/src/bridge/paper.rs.h"
 
 namespace smash {
 

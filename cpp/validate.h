@@ -1,7 +1,7 @@
 // The only gate to Ceres: what would make one of its CHECKs end the process is refused here.
 #pragma once
 
-#include "smash/src/bridge.rs.h"
+#include "smash/src/bridge/paper.rs.h"
 
 namespace smash {
 

@@ -29,14 +29,14 @@ pub use schema::{SchemaKind, schema};
 
 /// The version of Ceres Solver that this was built with.
 pub fn ceres_version() -> String {
-    bridge::ffi::ceres_version().unwrap_or_else(|error| error.what().to_string())
+    bridge::paper::ffi::ceres_version().unwrap_or_else(|error| error.what().to_string())
 }
 
 /// Keeps the log of Ceres Solver off standard error, for the whole process. The library leaves it
 /// as it is; a program that talks to a person wants it silent.
 pub fn silence_solver_log() {
     // It only sets a number: there is nothing to report.
-    let _ = bridge::ffi::silence_ceres_log();
+    let _ = bridge::paper::ffi::silence_ceres_log();
 }
 
 /// The README's Rust is compiled as a test.

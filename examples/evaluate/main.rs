@@ -84,7 +84,7 @@ fn noises() -> [(&'static str, NoiseSpec); 4] {
 }
 
 fn methods() -> [(&'static str, Options); 2] {
-    [("paper", Options::paper()), ("paper, by cost", Options::default())]
+    [("paper", Options::paper()), ("paper, by cost", Options::paper_by_cost())]
 }
 
 fn outcomes(cases: &[Case], interval: u32, noise: &NoiseSpec, options: &Options) -> Vec<Outcome> {

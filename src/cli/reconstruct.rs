@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use smash::files::{Output, print_bytes, shell_word};
-use smash::reconstruct::{Options, SegmentCriterion, reconstruct_with_progress};
+use smash::reconstruct::{Options, PaperOptions, SegmentCriterion, reconstruct_with_progress};
 use smash::{Reconstruction, Result, Scene};
 
 use super::progress::ProgressLine;
@@ -45,16 +45,13 @@ enum SegmentBy {
 
 impl Arguments {
     fn options(&self) -> Options {
-        let mut options = match self.preset {
-            Some(Preset::Paper) => Options::paper(),
-            None => Options::default(),
+        let segment_by = match (self.preset, self.segment_by) {
+            (_, Some(SegmentBy::Distance)) | (Some(Preset::Paper), None) => {
+                SegmentCriterion::Distance
+            }
+            (_, Some(SegmentBy::Cost)) | (None, None) => SegmentCriterion::Cost,
         };
-        match self.segment_by {
-            Some(SegmentBy::Distance) => options.segment_by = SegmentCriterion::Distance,
-            Some(SegmentBy::Cost) => options.segment_by = SegmentCriterion::Cost,
-            None => {}
-        }
-        options
+        Options::Paper(PaperOptions { segment_by, ..PaperOptions::default() })
     }
 
     /// What is worth trying after `result`.

@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Fit;
-use super::push::Push;
 use crate::Scene;
 
 /// A doubt, as a word in the result file.
@@ -78,6 +77,15 @@ const VISIBLE_SHARE_OF_EXTENT: f64 = 0.1;
 /// With a stated noise: residuals of twice the noise. The paper's fixed collision time alone makes
 /// them larger than the noise.
 const POOR_REDUCED_CHI2: f64 = 4.0;
+
+/// Which bodies' jumps stand out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Push {
+    /// At least one body was pushed: there was an impulse.
+    pub(super) any: bool,
+    /// Every body was pushed: their masses can be compared.
+    pub(super) all: bool,
+}
 
 /// What may be doubtful, besides the fit itself.
 pub(super) struct Doubts {

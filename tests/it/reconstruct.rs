@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
-use smash::reconstruct::{Flag, Progress, SegmentCriterion, Stage, reconstruct_with_progress};
+use smash::reconstruct::{Flag, Progress, Stage, reconstruct_with_progress};
 use smash::scene::{Noise, ObservationFile, SceneFile};
 use smash::simulate::{NoiseSpec, RegularSampling, Sampling, SimulationSpec, Truth, simulate};
 use smash::{Options, Reconstruction, Scene, SchemaKind, reconstruct, schema};
@@ -374,7 +374,7 @@ fn a_lone_body_tells_its_own_motion() {
     assert_eq!(result.mass_ratio, None);
     assert_eq!(result.restitution.value, None);
     assert!(result.restitution.reason.unwrap().contains("not known"));
-    let by_distance = Options { segment_by: SegmentCriterion::Distance, ..Options::default() };
+    let by_distance = Options::paper();
     let message = reconstruct(&scene(&file), &by_distance).unwrap_err().to_string();
     assert!(message.contains("--segment-by cost"), "{message}");
 }

@@ -1,7 +1,7 @@
 //! What the C++ side refuses.
 
 use super::{Case, PHASES, cuboids};
-use crate::bridge::ffi::{self, PaperPhase, PaperUnknowns};
+use crate::bridge::paper::ffi::{self, PaperPhase, PaperUnknowns};
 
 /// What would make Ceres end the process comes back as an error.
 #[test]

@@ -3,7 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::{HALF_OBSERVED, ROUNDING, cuboids, seen_briefly, simulated, turn};
-use crate::bridge::ffi::{self, PaperPhase};
+use crate::bridge::paper::ffi::{self, PaperPhase};
 use crate::rigid_body::omega_in_world;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::simulate::SimulationSpec;

@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 
+use super::super::result::Fit;
 use super::internal::InternalScene;
 use super::phases::Solved;
-use super::result::Fit;
 use crate::Result;
-use crate::bridge::ffi;
+use crate::bridge::paper::ffi;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::scene::Noise;
 

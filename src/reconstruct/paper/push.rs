@@ -2,17 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::super::flags::Push;
 use super::internal::InternalScene;
 use super::phases::Solved;
-
-/// Which bodies' jumps stand out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Push {
-    /// At least one body was pushed: there was an impulse.
-    pub(super) any: bool,
-    /// Every body was pushed: their masses can be compared.
-    pub(super) all: bool,
-}
 
 /// Compares each body's jump in velocity, in m/s, with its standard error: with the stated noise of
 /// positions, or the fit's.

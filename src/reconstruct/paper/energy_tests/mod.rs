@@ -11,7 +11,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::internal::InternalScene;
 use crate::Scene;
-use crate::bridge::ffi::{
+use crate::bridge::paper::ffi::{
     self, PaperBodyUnknowns, PaperFlight, PaperPhase, PaperScene, PaperUnknowns,
 };
 use crate::rigid_body::RigidBody;

@@ -1,8 +1,8 @@
 //! The scene as the paper's energy sees it: in the gravity frame, with time in frames.
 
-use super::SegmentCriterion;
+use super::super::SegmentCriterion;
 use super::gravity_frame::GravityFrame;
-use crate::bridge::ffi::{PaperBody, PaperObservation, PaperScene};
+use crate::bridge::paper::ffi::{PaperBody, PaperObservation, PaperScene};
 use crate::rigid_body::principal_inertia_per_mass;
 use crate::rigid_body::quaternion::to_wxyz;
 use crate::scene::DynamicBody;

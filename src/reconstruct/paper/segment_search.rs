@@ -4,10 +4,10 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::progress::{Progress, Stage};
+use super::super::progress::{Progress, Stage};
+use super::super::{PaperOptions, SegmentCriterion};
 use super::start::start_values;
-use super::{Options, SegmentCriterion};
-use crate::bridge::ffi::{self, PaperPhase, PaperScene, PaperSolution};
+use crate::bridge::paper::ffi::{self, PaperPhase, PaperScene, PaperSolution};
 use crate::{Error, ErrorKind, Result};
 
 /// A segment whose phase 1 was solved.
@@ -27,7 +27,7 @@ pub(super) struct SolvedSegment {
 pub(super) fn search(
     scene: &PaperScene,
     collision_frames: &[f64],
-    options: &Options,
+    options: &PaperOptions,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<SolvedSegment> {
     let segments = collision_frames.len();
@@ -89,7 +89,7 @@ fn score(scene: &PaperScene, criterion: SegmentCriterion, solution: &PaperSoluti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bridge::ffi::{PaperBodyUnknowns, PaperFlight, PaperUnknowns};
+    use crate::bridge::paper::ffi::{PaperBodyUnknowns, PaperFlight, PaperUnknowns};
 
     fn solution(positions: &[[f64; 3]]) -> PaperSolution {
         let flight = PaperFlight { parabola: [0.0; 3], angular_momentum: [0.0; 3] };

@@ -4,7 +4,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::bridge::ffi::{PaperBody, PaperBodyUnknowns, PaperFlight, PaperScene, PaperUnknowns};
+use crate::bridge::paper::ffi::{
+    PaperBody, PaperBodyUnknowns, PaperFlight, PaperScene, PaperUnknowns,
+};
 use crate::rigid_body::quaternion::{from_wxyz, to_wxyz};
 
 /// b₂ in m/frame: upwards.
@@ -105,7 +107,7 @@ fn share(first: f64, second: f64, time: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bridge::ffi::PaperObservation;
+    use crate::bridge::paper::ffi::PaperObservation;
 
     /// A unit cube seen at frames 0 and 10 of 10 a second, a metre along x and a quarter turn
     /// about y on.

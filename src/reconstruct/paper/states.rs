@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::internal::InternalScene;
 use super::phases::Solved;
 use super::solver_error;
-use crate::bridge::ffi::{self, PaperBody, PaperFlight};
+use crate::bridge::paper::ffi::{self, PaperBody, PaperFlight};
 use crate::rigid_body::RigidBody;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::scene::Shape;

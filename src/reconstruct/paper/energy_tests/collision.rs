@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::{Case, HALF_SOFT, PHASES, ROUNDING};
-use crate::bridge::ffi::{
+use crate::bridge::paper::ffi::{
     PaperBody, PaperBodyUnknowns, PaperFlight, PaperObservation, PaperPhase, PaperScene,
     PaperUnknowns,
 };

@@ -2,14 +2,14 @@
 
 use nalgebra::{UnitVector3, Vector3};
 
-use super::Options;
+use super::super::PaperOptions;
+use super::super::flags::{Doubts, flags};
+use super::super::result::{BodyResult, Estimate, Preset, RESULT_SCHEMA, Reconstruction};
+use super::super::scatter::position_scatter_m;
 use super::fit::fit;
-use super::flags::{Doubts, flags};
 use super::internal::InternalScene;
 use super::phases::Solved;
 use super::push;
-use super::result::{BodyResult, Estimate, Preset, RESULT_SCHEMA, Reconstruction};
-use super::scatter::position_scatter_m;
 use super::states::{States, settle_on_line, states};
 use crate::rigid_body::Contact;
 use crate::rigid_body::quaternion::to_wxyz;
@@ -26,7 +26,7 @@ const NO_SURFACE: &str = "it needs the spins, and too few orientations are annot
 pub(super) fn reconstruction(
     scene: &Scene,
     internal: &InternalScene,
-    options: &Options,
+    options: &PaperOptions,
     solved: &Solved,
 ) -> Result<Reconstruction> {
     let states = states(scene, internal, solved)?;

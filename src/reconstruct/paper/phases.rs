@@ -2,13 +2,13 @@
 
 use std::time::Instant;
 
-use super::Options;
-use super::progress::{Progress, Stage};
-use super::result::PhaseReport;
+use super::super::PaperOptions;
+use super::super::progress::{Progress, Stage};
+use super::super::result::PhaseReport;
 use super::segment_search;
 use super::start::tied_contact_point;
 use crate::Result;
-use crate::bridge::ffi::{self, PaperPhase, PaperScene, PaperSolution, PaperUnknowns};
+use crate::bridge::paper::ffi::{self, PaperPhase, PaperScene, PaperSolution, PaperUnknowns};
 
 /// The outcome of all three phases.
 pub(super) struct Solved {
@@ -25,7 +25,7 @@ pub(super) struct Solved {
 pub(super) fn solve(
     scene: &PaperScene,
     collision_frames: &[f64],
-    options: &Options,
+    options: &PaperOptions,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Solved> {
     let segment = segment_search::search(scene, collision_frames, options, progress)?;

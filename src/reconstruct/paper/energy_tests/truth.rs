@@ -6,7 +6,7 @@ use super::{
     Case, HALF_OBSERVED, HALF_SOFT, PHASES, ROUNDING, cuboids, move_across_impulse, seen_briefly,
     simulated, spinning_balls, turn,
 };
-use crate::bridge::ffi::{self, PaperFlight, PaperPhase, PaperUnknowns};
+use crate::bridge::paper::ffi::{self, PaperFlight, PaperPhase, PaperUnknowns};
 use crate::simulate::SimulationSpec;
 
 /// The truth costs nothing but the error of Euler's steps: of a cuboid whose axis of rotation

@@ -1,0 +1,3 @@
+//! The bridges to C++, one for each preset: data in, data out.
+
+pub(crate) mod paper;
