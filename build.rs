@@ -18,11 +18,15 @@ fn main() {
         return;
     }
     let include = ceres_include_folder();
-    let mut build = cxx_build::bridge("src/bridge/paper.rs");
+    let mut build = cxx_build::bridges(["src/bridge/paper.rs", "src/bridge/refined.rs"]);
     build
         .file("cpp/bridge.cc")
+        .file("cpp/flight_fits.cc")
         .file("cpp/problem.cc")
-        .file("cpp/validate.cc")
+        .file("cpp/refined_bridge.cc")
+        .file("cpp/refined_problem.cc")
+        .file("cpp/validate_paper.cc")
+        .file("cpp/validate_refined.cc")
         .include("cpp")
         // As system headers: their warnings aren't ours.
         .flag(format!("-isystem{}", include.join("eigen3").display()))

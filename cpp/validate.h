@@ -1,7 +1,14 @@
-// The only gate to Ceres: what would make one of its CHECKs end the process is refused here.
+// The only gate to Ceres: what would make one of its CHECKs end the process is refused here, by
+// std::invalid_argument.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
 #include "smash/src/bridge/paper.rs.h"
+#include "smash/src/bridge/refined.rs.h"
 
 namespace smash {
 
@@ -9,12 +16,35 @@ namespace smash {
 inline constexpr double kSmallestMassRatio = 1e-5;
 inline constexpr double kLargestMassRatio = 10.0;
 
-// Throws std::invalid_argument on anything that isn't finite, positive, of unit length, equal in
-// number or within bounds where it must be.
+// Refuses anything that isn't finite, positive, of unit length, equal in number or within bounds
+// where it must be.
 void CheckPaperInput(const PaperScene& scene, double collision_frames,
                      const PaperUnknowns& unknowns);
 
-// Throws std::invalid_argument unless a flight of so many frames can be integrated.
+// Refuses a flight of so many frames that it can't be integrated.
 void CheckDuration(double frames);
+
+// As CheckPaperInput, for the refined solver and its parts.
+void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& problem);
+void CheckSpinFlight(const SpinFlight& flight);
+void CheckJumps(const RefinedScene& scene, rust::Slice<const Jump> jumps,
+                const RefinedUnknowns& start);
+
+[[noreturn]] inline void Refuse(const std::string& what) {
+  throw std::invalid_argument("invalid input: " + what);
+}
+
+template <std::size_t N>
+bool AllFinite(const std::array<double, N>& values) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+inline bool IsUnit(const std::array<double, 4>& q) {
+  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  return std::abs(std::sqrt(square) - 1.0) < 1e-6;
+}
 
 }  // namespace smash

@@ -18,10 +18,10 @@ pub struct Arguments {
     /// Where to write the result (smash.result/1), or - for standard output
     #[arg(short, long, value_name = "RESULT")]
     output: Option<PathBuf>,
-    /// The method. Without it: `paper` with `--segment-by cost`
-    #[arg(long)]
-    preset: Option<Preset>,
-    /// What chooses between which two observations the bodies collided
+    /// The method
+    #[arg(long, default_value = "refined")]
+    preset: Preset,
+    /// What chooses between which two observations the bodies collided, in the paper's method
     #[arg(long, value_name = "CRITERION")]
     segment_by: Option<SegmentBy>,
     /// Print the result as JSON instead of words
@@ -33,6 +33,8 @@ pub struct Arguments {
 enum Preset {
     /// The SMASH paper to the letter
     Paper,
+    /// The most accurate solution, with error bars
+    Refined,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -45,13 +47,16 @@ enum SegmentBy {
 
 impl Arguments {
     fn options(&self) -> Options {
-        let segment_by = match (self.preset, self.segment_by) {
-            (_, Some(SegmentBy::Distance)) | (Some(Preset::Paper), None) => {
-                SegmentCriterion::Distance
-            }
-            (_, Some(SegmentBy::Cost)) | (None, None) => SegmentCriterion::Cost,
+        let segment_by = match self.segment_by {
+            Some(SegmentBy::Cost) => SegmentCriterion::Cost,
+            Some(SegmentBy::Distance) | None => SegmentCriterion::Distance,
         };
-        Options::Paper(PaperOptions { segment_by, ..PaperOptions::default() })
+        match self.preset {
+            Preset::Paper => {
+                Options::Paper(PaperOptions { segment_by, ..PaperOptions::default() })
+            }
+            Preset::Refined => Options::default(),
+        }
     }
 
     /// What is worth trying after `result`.

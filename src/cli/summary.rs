@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use smash::files::Output;
-use smash::reconstruct::{BodyResult, Estimate, Flag, Reconstruction, SegmentCriterion};
+use smash::reconstruct::{BodyResult, Estimate, Flag, Preset, Reconstruction, SegmentCriterion};
 
 /// The summary that `smash reconstruct` prints.
 pub fn of(result: &Reconstruction, next: &[String], output: Option<&Output>) -> String {
@@ -60,9 +60,12 @@ fn write_summary(
 }
 
 fn method(result: &Reconstruction) -> &'static str {
-    match result.segment_by {
-        SegmentCriterion::Distance => "the paper to the letter: segment by distance",
-        _ => "the paper's method, segment by cost",
+    match (result.preset, result.segment_by) {
+        (Preset::Paper, SegmentCriterion::Distance) => {
+            "the paper to the letter: segment by distance"
+        }
+        (Preset::Paper, _) => "the paper's method, segment by cost",
+        _ => "refined",
     }
 }
 

@@ -3,19 +3,21 @@
 //! The presets share what they are given and what they answer: [`Scene`] in, [`Reconstruction`]
 //! out; each has its own room.
 
+mod collision;
 mod flags;
 mod options;
 mod paper;
 mod progress;
+mod refined;
 mod result;
 mod scatter;
 
 pub use flags::Flag;
-pub use options::{Options, PaperOptions, SegmentCriterion};
+pub use options::{Options, PaperOptions, RefinedOptions, SegmentCriterion};
 pub use progress::{Progress, Stage};
 pub use result::{
-    BodyResult, Effect, Estimate, Fit, Parameter, PhaseReport, Preset, RESULT_SCHEMA,
-    Reconstruction,
+    Alternative, BodyResult, Effect, Estimate, Fit, NoiseReport, Parameter, PhaseReport, Preset,
+    RESULT_SCHEMA, Reconstruction, Uncertainty,
 };
 
 use crate::{Error, ErrorKind, Result, Scene};
@@ -50,6 +52,7 @@ pub fn reconstruct_with_progress(
 ) -> Result<Reconstruction> {
     match options {
         Options::Paper(options) => paper::reconstruct(scene, options, progress),
+        Options::Refined(options) => refined::reconstruct(scene, options),
     }
 }
 

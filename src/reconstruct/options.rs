@@ -9,6 +9,25 @@ use serde::{Deserialize, Serialize};
 pub enum Options {
     /// The SMASH paper's energy, three phases and segment search, to the letter.
     Paper(PaperOptions),
+    /// The most accurate solution, with its uncertainty.
+    Refined(RefinedOptions),
+}
+
+/// Choices of the `refined` preset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RefinedOptions {
+    /// One σ of the angle about each horizontal axis by which the scene's `up` may be wrong, in rad;
+    /// above 0.
+    pub tilt_std_rad: f64,
+}
+
+/// A fifth of a degree: a spirit level, or a plumb line in the picture.
+const TILT_STD_RAD: f64 = 0.2 * std::f64::consts::PI / 180.0;
+
+impl Default for RefinedOptions {
+    fn default() -> Self {
+        RefinedOptions { tilt_std_rad: TILT_STD_RAD }
+    }
 }
 
 /// Choices of the `paper` preset.
@@ -34,7 +53,7 @@ impl Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options::paper_by_cost()
+        Options::Refined(RefinedOptions::default())
     }
 }
 

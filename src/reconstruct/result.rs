@@ -40,6 +40,15 @@ pub struct Reconstruction {
     pub bodies: Vec<BodyResult>,
     /// Effects beyond the base model.
     pub effects: Vec<Effect>,
+    /// The noise that the fit reckons with; missing in the `paper` preset, which has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<NoiseReport>,
+    /// How sure the reported numbers are; missing in the `paper` preset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Uncertainty>,
+    /// Other optima that are nearly as good.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub alternatives: Vec<Alternative>,
     /// How well the model meets the poses.
     pub fit: Fit,
     /// The solver's phases; in the first, the chosen segment's.
@@ -57,6 +66,8 @@ pub struct Reconstruction {
 pub enum Preset {
     /// The SMASH paper's energy.
     Paper,
+    /// The most accurate solution: exact conservation, continuous time, residuals over the noise.
+    Refined,
 }
 
 /// A number and how sure it is.
@@ -66,9 +77,59 @@ pub struct Estimate {
     pub value: Option<f64>,
     /// One standard deviation; null where it can't be computed.
     pub std: Option<f64>,
+    /// From and to: holds the truth in 95 of 100 collisions. Missing where it can't be computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval_95: Option<[f64; 2]>,
     /// Why `value` or `std` is null.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+}
+
+impl Estimate {
+    /// What the data don't tell, and why.
+    pub(crate) fn unknown(reason: &str) -> Self {
+        Estimate { value: None, std: None, interval_95: None, reason: Some(reason.to_string()) }
+    }
+}
+
+/// The noise that residuals were divided by.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NoiseReport {
+    /// One σ of a position coordinate, m.
+    pub position: f64,
+    /// One σ of a component of the rotation vector, rad; null when no orientation was fitted.
+    pub orientation: Option<f64>,
+    /// Estimated from the residuals, not stated in the scene.
+    pub estimated: bool,
+}
+
+/// Another optimum that explains the poses nearly as well.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Alternative {
+    /// What differs: the segment, or whole turns of a spin.
+    pub differs_in: String,
+    /// How much larger its χ² is: 4 is as improbable as two standard deviations.
+    pub delta_chi2: f64,
+    /// m_b / m_a; null without a second dynamic body.
+    pub mass_ratio: Option<f64>,
+    /// The restitution; null where the poses don't tell it.
+    pub restitution: Option<f64>,
+    /// t_c in s.
+    pub collision_time: f64,
+}
+
+/// Standard deviations and correlations of all reported numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Uncertainty {
+    /// Names such as `mass_ratio`, `impulse.x` or, after a body's name, `a.velocity_after.x`. An
+    /// orientation's three are turns about the world's axes, in rad.
+    pub quantities: Vec<String>,
+    /// One standard deviation of each, in the unit of the quantity; null where the poses don't
+    /// determine it.
+    pub std: Vec<Option<f64>>,
+    /// Row by row the correlation of each quantity with all up to itself; null where either is not
+    /// determined or can't vary.
+    pub correlation: Vec<Vec<Option<f64>>>,
 }
 
 /// An effect beyond the base model, with its parameters. The `paper` preset has none.
@@ -146,7 +207,8 @@ pub struct Fit {
 /// One phase of the solver.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PhaseReport {
-    /// `1 trajectories`, `2 impulse`, `3 contact point`.
+    /// Of the paper `1 trajectories`, `2 impulse`, `3 contact point`; of the refined solver
+    /// `1 flights`, `2 impulse`, `3 everything`.
     pub name: String,
     /// The energy at its start.
     pub cost_initial: f64,

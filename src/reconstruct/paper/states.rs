@@ -1,7 +1,6 @@
 //! The bodies just before and just after the collision, from the solver's unknowns.
 
-use nalgebra::Vector3;
-
+use super::super::collision::States;
 use super::internal::InternalScene;
 use super::phases::Solved;
 use super::solver_error;
@@ -10,29 +9,6 @@ use crate::rigid_body::RigidBody;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::scene::Shape;
 use crate::{Result, Scene};
-
-/// A body just before and just after the collision, in the world.
-pub(super) struct States {
-    pub(super) before: RigidBody,
-    pub(super) after: RigidBody,
-    /// Whether the poses tell the spin.
-    pub(super) spin_before_known: bool,
-    pub(super) spin_after_known: bool,
-    is_ball: bool,
-}
-
-impl States {
-    /// How much the velocity jumps, in m/s.
-    pub(super) fn jump_m_s(&self) -> f64 {
-        (self.after.velocity_in_world - self.before.velocity_in_world).norm()
-    }
-
-    /// Whether the velocity of a point on the surface is known along an impulse there: a smooth
-    /// ball's spin plays no part in it, since the impulse passes through its centre.
-    pub(super) fn surface_velocity_known(&self) -> bool {
-        self.is_ball || (self.spin_before_known && self.spin_after_known)
-    }
-}
 
 /// The states of all dynamic bodies, the reference body first.
 pub(super) fn states(
@@ -84,26 +60,4 @@ fn seen(body: &PaperBody, collision_frames: f64) -> (usize, usize) {
     let (before, after): (Vec<_>, Vec<_>) =
         annotated.partition(|o| o.time_frames < collision_frames);
     (before.len(), after.len())
-}
-
-/// The contact point x_c on its line of action x + s J, along which nothing changes: where that
-/// line meets the plane, or nearest to the middle between the centres.
-pub(super) fn settle_on_line(
-    scene: &Scene,
-    states: &[States],
-    point: Vector3<f64>,
-    impulse: &Vector3<f64>,
-) -> Vector3<f64> {
-    let along = match scene.plane() {
-        Some(plane) => {
-            let towards = plane.normal_in_world.dot(impulse);
-            (plane.height_m - plane.normal_in_world.dot(&point)) / towards
-        }
-        None => {
-            let centres = states.iter().map(|states| states.before.position_in_world);
-            let middle = centres.sum::<Vector3<f64>>() / states.len() as f64;
-            impulse.dot(&(middle - point)) / impulse.norm_squared()
-        }
-    };
-    if along.is_finite() { point + along * impulse } else { point }
 }

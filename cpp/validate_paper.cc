@@ -1,28 +1,12 @@
-#include "validate.h"
-
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
-#include "dynamics/vector.h"
+#include "validate.h"
 
 namespace smash {
 namespace {
 
 // A flight of more frames would take a number of Euler steps that no int holds.
 constexpr double kLongestFlightFrames = 1e8;
-
-[[noreturn]] void Refuse(const std::string& what) {
-  throw std::invalid_argument("invalid input: " + what);
-}
-
-template <std::size_t N>
-bool AllFinite(const std::array<double, N>& values) {
-  for (const double value : values) {
-    if (!std::isfinite(value)) return false;
-  }
-  return true;
-}
 
 void CheckBody(const PaperBody& body) {
   for (const double moment : body.inertia_per_mass) {
@@ -35,10 +19,6 @@ void CheckBody(const PaperBody& body) {
       Refuse("an observation that isn't finite");
     }
   }
-}
-
-bool IsUnit(const std::array<double, 4>& q) {
-  return std::abs(ToQuaternion(q).norm() - 1.0) < 1e-6;
 }
 
 }  // namespace

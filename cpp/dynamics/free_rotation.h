@@ -1,0 +1,101 @@
+// Rotation without torque, accurately: the angular momentum l per unit mass is constant in the
+// world, the orientation follows from dq/dt = 1/2 (0, omega) q with omega = R I^-1 R^T l.
+#pragma once
+
+#include <cmath>
+
+#include "dynamics/rotation_vector.h"
+
+namespace smash {
+
+// The classical Runge-Kutta step of order 4 on the quaternion. Off the unit sphere the right-hand
+// side is as smooth as on it; length is restored after the step.
+template <typename T>
+Quaternion<T> RungeKuttaStep(const Quaternion<T>& q, const Vector3<T>& l,
+                             const Vector3<T>& inverse_inertia, const T& step_s) {
+  const auto rate = [&](const Quaternion<T>& at) {
+    const Vector3<T> half_omega = AngularVelocity(at, l, inverse_inertia) * T(0.5);
+    return MultiplyPure(half_omega, at);
+  };
+  const T half_s = step_s * T(0.5);
+  const Quaternion<T> k1 = rate(q);
+  const Quaternion<T> k2 = rate(Quaternion<T>(q + half_s * k1));
+  const Quaternion<T> k3 = rate(Quaternion<T>(q + half_s * k2));
+  const Quaternion<T> k4 = rate(Quaternion<T>(q + step_s * k3));
+  const Quaternion<T> moved = q + (step_s / T(6)) * (k1 + T(2) * (k2 + k3) + k4);
+  return moved / moved.norm();
+}
+
+// An orientation that moves on in time, with its derivatives by where it started.
+//
+// A small turn phi of the orientation and a change d of l obey dphi/dt = A (l x phi + d) with
+// A = R I^-1 R^T. Hence phi(t) = (1 + Psi [l]x) phi(0) + Psi d, where dPsi/dt = A ([l]x Psi + 1)
+// and Psi(0) = 0: one matrix tells both derivatives.
+class FreeRotation {
+ public:
+  FreeRotation(const Vector3<double>& inertia_per_mass, const Quaternion<double>& world_from_body,
+               const Vector3<double>& l)
+      : inverse_inertia_(inertia_per_mass.cwiseInverse()),
+        isotropic_(inertia_per_mass[0] == inertia_per_mass[1] &&
+                   inertia_per_mass[1] == inertia_per_mass[2]),
+        q_(world_from_body),
+        l_(l),
+        skew_l_(Skew(l)) {}
+
+  // How many pairs of steps cover a duration with none longer than `longest_step_s`.
+  static int Pairs(double duration_s, double longest_step_s) {
+    return std::max(1, static_cast<int>(std::ceil(0.5 * std::abs(duration_s) / longest_step_s)));
+  }
+
+  const Quaternion<double>& world_from_body() const { return q_; }
+  const Matrix3& psi() const { return psi_; }
+  Vector3<double> omega() const { return AngularVelocity(q_, l_, inverse_inertia_); }
+
+  // Moves on by `duration_s` (negative: back) in `pairs` pairs of steps. Psi is only needed to the
+  // accuracy of a derivative: one step of its own for each pair. Where inertia is isotropic the
+  // spin is constant, and both have a closed form.
+  void Advance(double duration_s, int pairs, bool with_psi) {
+    if (isotropic_) return AdvanceIsotropic(duration_s, with_psi);
+    const double step_s = 0.5 * duration_s / pairs;
+    for (int pair = 0; pair < pairs; ++pair) {
+      const Quaternion<double> middle = RungeKuttaStep(q_, l_, inverse_inertia_, step_s);
+      const Quaternion<double> end = RungeKuttaStep(middle, l_, inverse_inertia_, step_s);
+      if (with_psi) StepPsi(Mobility(q_), Mobility(middle), Mobility(end), 2.0 * step_s);
+      q_ = end;
+    }
+  }
+
+ private:
+  // A = R I^-1 R^T.
+  Matrix3 Mobility(const Quaternion<double>& q) const {
+    const Matrix3 r = ToMatrix(q);
+    return r * inverse_inertia_.asDiagonal() * r.transpose();
+  }
+
+  void StepPsi(const Matrix3& start, const Matrix3& middle, const Matrix3& end, double step_s) {
+    const Matrix3 one = Matrix3::Identity();
+    const Matrix3 k1 = start * (skew_l_ * psi_ + one);
+    const Matrix3 k2 = middle * (skew_l_ * (psi_ + 0.5 * step_s * k1) + one);
+    const Matrix3 k3 = middle * (skew_l_ * (psi_ + 0.5 * step_s * k2) + one);
+    const Matrix3 k4 = end * (skew_l_ * (psi_ + step_s * k3) + one);
+    psi_ += (step_s / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
+  }
+
+  void AdvanceIsotropic(double duration_s, bool with_psi) {
+    const Vector3<double> turn = (inverse_inertia_[0] * duration_s) * l_;
+    q_ = Multiply(ExpRotation(turn), q_);
+    if (!with_psi) return;
+    // Psi(s + t) = exp([omega] t) Psi(s) + (t / I) J_l(omega t).
+    psi_ = ToMatrix(ExpRotation(turn)) * psi_ +
+           (inverse_inertia_[0] * duration_s) * LeftJacobian(turn);
+  }
+
+  Vector3<double> inverse_inertia_;
+  bool isotropic_;
+  Quaternion<double> q_;
+  Vector3<double> l_;
+  Matrix3 skew_l_;
+  Matrix3 psi_ = Matrix3::Zero();
+};
+
+}  // namespace smash

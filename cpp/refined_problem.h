@@ -1,0 +1,23 @@
+// The refined solver's chi-square as a ceres::Problem.
+#pragma once
+
+#include "functors/flight.h"
+#include "smash/src/bridge/refined.rs.h"
+
+namespace smash {
+
+// Minimises from the start, all of which has passed CheckRefinedInput. Throws std::runtime_error
+// when no usable solution is found.
+RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& problem);
+
+// The few numbers that stand for the impulse and the contact point, from where `unknowns` has them.
+ContactFrame ContactFrameOf(const RefinedScene& scene, const RefinedUnknowns& unknowns);
+
+// The longest step that keeps the integrator's error far under any annotation's: 1e-7 rad over ten
+// rad.
+double LongestStep(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
+                   const Vector3<double>& l);
+
+FlightPose ToFlightPose(const RefinedPose& pose);
+
+}  // namespace smash

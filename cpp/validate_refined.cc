@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/vector.h"
+#include "validate.h"
+
+namespace smash {
+namespace {
+
+// A mass ratio beyond e^30 either way is none.
+constexpr double kLargestLogMassRatio = 30.0;
+// So many steps of the integrator take a minute.
+constexpr double kLargestTurningRad = 1e7;
+
+bool IsPositive(double value) { return value > 0 && std::isfinite(value); }
+
+void CheckInertia(const std::array<double, 3>& inertia_per_mass) {
+  for (const double moment : inertia_per_mass) {
+    if (!IsPositive(moment)) Refuse("a moment of inertia isn't positive");
+  }
+}
+
+void CheckPose(const RefinedPose& pose) {
+  if (!std::isfinite(pose.time_s) || !AllFinite(pose.position) || !AllFinite(pose.orientation)) {
+    Refuse("a pose that isn't finite");
+  }
+  if (!IsPositive(pose.position_std_m) || !IsPositive(pose.orientation_std_rad)) {
+    Refuse("a standard deviation that isn't positive");
+  }
+  if (pose.has_orientation && !IsUnit(pose.orientation)) Refuse("an orientation isn't of length 1");
+}
+
+// A start whose rotation would take too many steps. `omega` is bounded by l / I_min.
+void CheckTurning(const std::array<double, 3>& inertia_per_mass, double spin, double duration_s) {
+  const double least = *std::min_element(inertia_per_mass.begin(), inertia_per_mass.end());
+  if (!(spin / least * std::abs(duration_s) < kLargestTurningRad)) {
+    Refuse("a spin is too fast to be integrated");
+  }
+}
+
+void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns) {
+  if (scene.bodies.empty() || scene.bodies.size() > 2) Refuse("there must be one or two bodies");
+  if (unknowns.bodies.size() != scene.bodies.size()) Refuse("unknowns and bodies differ in number");
+  for (const RefinedMotion& body : unknowns.bodies) {
+    if (!AllFinite(body.position) || !AllFinite(body.velocity_before) ||
+        !AllFinite(body.spin_before) || !IsUnit(body.orientation)) {
+      Refuse("a start that isn't finite or of unit length");
+    }
+  }
+  if (!AllFinite(unknowns.tilt) || !AllFinite(unknowns.impulse) ||
+      !AllFinite(unknowns.contact_point) || !AllFinite(scene.plane_normal) ||
+      !(std::abs(unknowns.log_mass_ratio) < kLargestLogMassRatio)) {
+    Refuse("a start that isn't finite");
+  }
+}
+
+}  // namespace
+
+void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& problem) {
+  CheckUnknowns(scene, problem.start);
+  if (!(scene.gravity_m_s2 >= 0 && std::isfinite(scene.gravity_m_s2)) ||
+      !IsPositive(scene.tilt_std_rad) || !AllFinite(scene.down) || !AllFinite(scene.across[0]) ||
+      !AllFinite(scene.across[1])) {
+    Refuse("gravity or its tilt isn't finite and positive");
+  }
+  const double time_s = problem.start.collision_time_s;
+  if (!(problem.earliest_s <= time_s && time_s <= problem.latest_s &&
+        problem.earliest_s < problem.latest_s)) {
+    Refuse("the collision time is out of its bounds");
+  }
+  if (!std::isfinite(problem.restitution.value) || !std::isfinite(problem.restitution.weight)) {
+    Refuse("the restitution isn't finite");
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const RefinedBody& body = scene.bodies[i];
+    CheckInertia(body.inertia_per_mass);
+    if (body.poses.empty()) Refuse("a body without poses");
+    if (!std::is_sorted(
+            body.poses.begin(), body.poses.end(),
+            [](const RefinedPose& a, const RefinedPose& b) { return a.time_s < b.time_s; })) {
+      Refuse("poses out of order");
+    }
+    const RefinedMotion& start = problem.start.bodies[i];
+    const double mass = i == 0 ? 1.0 : std::exp(problem.start.log_mass_ratio);
+    const double lever =
+        (ToVector3(problem.start.contact_point) - ToVector3(start.position)).norm();
+    const double spin = ToVector3(start.spin_before).norm() +
+                        lever * ToVector3(problem.start.impulse).norm() / mass;
+    for (const RefinedPose& pose : body.poses) {
+      CheckPose(pose);
+      CheckTurning(body.inertia_per_mass, spin, pose.time_s - time_s);
+    }
+  }
+}
+
+void CheckSpinFlight(const SpinFlight& flight) {
+  CheckInertia(flight.inertia_per_mass);
+  if (!std::isfinite(flight.collision_time_s) || !AllFinite(flight.spin)) {
+    Refuse("a start that isn't finite");
+  }
+  std::size_t seen = 0;
+  for (const RefinedPose& pose : flight.poses) {
+    CheckPose(pose);
+    CheckTurning(flight.inertia_per_mass, ToVector3(flight.spin).norm(),
+                 pose.time_s - flight.collision_time_s);
+    seen += pose.has_orientation ? 1 : 0;
+  }
+  if (seen == 0) Refuse("a flight without orientations");
+}
+
+void CheckJumps(const RefinedScene& scene, rust::Slice<const Jump> jumps,
+                const RefinedUnknowns& start) {
+  CheckUnknowns(scene, start);
+  if (jumps.size() != scene.bodies.size()) Refuse("jumps and bodies differ in number");
+  for (const Jump& jump : jumps) {
+    if (!AllFinite(jump.position) || !AllFinite(jump.velocity) || !AllFinite(jump.spin) ||
+        !AllFinite(jump.velocity_weight) || !AllFinite(jump.spin_weight)) {
+      Refuse("a jump that isn't finite");
+    }
+  }
+}
+
+}  // namespace smash

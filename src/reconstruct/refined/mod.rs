@@ -1,0 +1,40 @@
+//! The refined solver: exact conservation, continuous collision time, residuals over the noise.
+//!
+//! ```text
+//! scene ─► 1 flights ─────────► 2 impulse ────────► 3 everything ──► uncertainty ─► reconstruction
+//!          parabolas (closed    jumps between the   χ² over all     covariance of
+//!          form, all segments), flights, for each   poses, from     all reported
+//!          spins (± turns)      choice of turns     the best starts numbers
+//! ```
+
+mod covariance;
+mod layout;
+mod model;
+mod parabolas;
+mod quantities;
+mod report;
+mod significance;
+mod solve;
+mod spins;
+mod start;
+mod uncertainty;
+
+use super::{Reconstruction, RefinedOptions};
+use crate::scene::Noise;
+use crate::{Error, ErrorKind, Result, Scene};
+
+/// Reconstructs the collision in `scene` by the refined solver.
+pub(super) fn reconstruct(scene: &Scene, options: &RefinedOptions) -> Result<Reconstruction> {
+    if !(options.tilt_std_rad > 0.0 && options.tilt_std_rad.is_finite()) {
+        let problem = format!("the tilt's deviation is {} rad", options.tilt_std_rad);
+        return Err(Error::new(ErrorKind::Invalid, problem).mend("give an angle above 0"));
+    }
+    let stated = scene.noise().map(|noise| Noise {
+        position: noise.position.max(solve::LEAST_NOISE.position),
+        orientation: noise.orientation.max(solve::LEAST_NOISE.orientation),
+    });
+    let parabolas = parabolas::Parabolas::new(scene);
+    let mut refined = model::refined_scene(scene, solve::LEAST_NOISE, options.tilt_std_rad);
+    let solved = solve::solve(&mut refined, &parabolas, stated)?;
+    Ok(report::reconstruction(scene, &refined, &solved))
+}

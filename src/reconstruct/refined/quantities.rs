@@ -1,0 +1,162 @@
+//! What is reported, as a function of the unknowns, and its derivatives.
+
+use nalgebra::{DMatrix, UnitQuaternion, Vector3};
+
+use super::layout::Layout;
+use super::solve::Optimum;
+use crate::Scene;
+use crate::bridge::refined::ffi::RefinedUnknowns;
+use crate::reconstruct::collision::{States, contact, restitution};
+use crate::rigid_body::quaternion::from_wxyz;
+use crate::rigid_body::{Contact, RigidBody};
+use crate::scene::Shape;
+
+/// A collision in the terms of the result.
+#[derive(Debug, Clone)]
+pub(super) struct Collision {
+    pub(super) mass_ratio: Option<f64>,
+    pub(super) restitution: Result<f64, &'static str>,
+    pub(super) time_s: f64,
+    pub(super) impulse: Vector3<f64>,
+    /// `None` without an impulse.
+    pub(super) contact: Option<Contact>,
+    pub(super) states: Vec<States>,
+}
+
+/// The collision that `unknowns` stand for. `has_spin`: of each body.
+pub(super) fn collision(scene: &Scene, unknowns: &RefinedUnknowns, has_spin: &[bool]) -> Collision {
+    let impulse = Vector3::from(unknowns.impulse);
+    let point = Vector3::from(unknowns.contact_point);
+    let mass_ratio = (scene.bodies().len() == 2).then(|| unknowns.log_mass_ratio.exp());
+    let states: Vec<States> = scene
+        .bodies()
+        .iter()
+        .zip(&unknowns.bodies)
+        .enumerate()
+        .map(|(index, (body, motion))| {
+            let (mass, kick) = match (index, mass_ratio) {
+                (1, Some(mass)) => (mass, -impulse),
+                _ => (1.0, impulse),
+            };
+            let before = RigidBody {
+                position_in_world: motion.position.into(),
+                world_from_body: from_wxyz(motion.orientation),
+                velocity_in_world: motion.velocity_before.into(),
+                angular_momentum_in_world: mass * Vector3::from(motion.spin_before),
+                ..RigidBody::solid(&body.shape, mass)
+            };
+            States {
+                after: before.pushed(&point, &kick),
+                before,
+                spin_before_known: has_spin[index],
+                spin_after_known: has_spin[index],
+                is_ball: matches!(body.shape, Shape::Sphere { .. }),
+            }
+        })
+        .collect();
+    let contact = contact(scene, &states, point, &impulse);
+    Collision {
+        mass_ratio,
+        restitution: restitution(scene, contact, &states),
+        time_s: unknowns.collision_time_s,
+        impulse,
+        contact,
+        states,
+    }
+}
+
+/// The names of [`Collision::flat`], in its order.
+pub(super) fn names(scene: &Scene) -> Vec<String> {
+    let vector = |name: &str| ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));
+    let mut names: Vec<String> =
+        ["mass_ratio", "restitution", "collision_time"].map(String::from).into();
+    for name in ["contact_point", "impulse", "normal"] {
+        names.extend(vector(name));
+    }
+    for body in scene.bodies() {
+        for quantity in BODY_QUANTITIES {
+            names.extend(vector(&format!("{}.{quantity}", body.name)));
+        }
+    }
+    names
+}
+
+/// Where the contact point stands in [`Collision::flat`].
+pub(super) const CONTACT_POINT: usize = 3;
+/// Where the impulse stands.
+pub(super) const IMPULSE: usize = 6;
+
+/// Where a body's vector `quantity` stands.
+pub(super) fn body_place(body: usize, quantity: &str) -> usize {
+    let number = BODY_QUANTITIES.iter().position(|name| *name == quantity).unwrap_or(0);
+    12 + 3 * (BODY_QUANTITIES.len() * body + number)
+}
+
+const BODY_QUANTITIES: [&str; 8] = [
+    "position",
+    "orientation",
+    "velocity_before",
+    "velocity_after",
+    "angular_velocity_before",
+    "angular_velocity_after",
+    "angular_momentum_before",
+    "angular_momentum_after",
+];
+
+impl Collision {
+    /// All numbers in a row; orientations as turns in the world from `base`'s. What doesn't exist
+    /// is 0, and has no derivative.
+    fn flat(&self, base: &Collision) -> Vec<f64> {
+        let mut flat =
+            vec![self.mass_ratio.unwrap_or(0.0), self.restitution.unwrap_or(0.0), self.time_s];
+        let mut push = |v: &Vector3<f64>| flat.extend(v.iter());
+        let (point, normal) =
+            self.contact.map_or((Vector3::zeros(), Vector3::zeros()), |contact| {
+                (contact.point_in_world, contact.normal_in_world.into_inner())
+            });
+        push(&point);
+        push(&self.impulse);
+        push(&normal);
+        for (states, base) in self.states.iter().zip(&base.states) {
+            let (before, after) = (&states.before, &states.after);
+            let turn: UnitQuaternion<f64> =
+                before.world_from_body * base.before.world_from_body.inverse();
+            push(&before.position_in_world);
+            push(&turn.scaled_axis());
+            push(&before.velocity_in_world);
+            push(&after.velocity_in_world);
+            push(&before.omega_in_world());
+            push(&after.omega_in_world());
+            push(&before.angular_momentum_in_world);
+            push(&after.angular_momentum_in_world);
+        }
+        flat
+    }
+}
+
+/// The derivatives of all reported numbers by the unknowns, by central differences a small part of
+/// each unknown's own deviation wide, where the functions are as good as linear.
+pub(super) fn derivatives(
+    scene: &Scene,
+    layout: &Layout,
+    optimum: &Optimum,
+    has_spin: &[bool],
+) -> DMatrix<f64> {
+    /// In deviations: rounding and curvature both stay below a millionth.
+    const STEP: f64 = 1e-3;
+    let unknowns = &optimum.solution.unknowns;
+    let base = collision(scene, unknowns, has_spin);
+    let rows = base.flat(&base).len();
+    let mut derivatives = DMatrix::zeros(rows, layout.size);
+    for column in 0..layout.size {
+        let std = optimum.covariance.matrix[(column, column)].sqrt();
+        let length = (STEP * std).clamp(1e-7, 1e-3);
+        let at = |length: f64| {
+            collision(scene, &layout.stepped(unknowns, column, length), has_spin).flat(&base)
+        };
+        for (row, (high, low)) in at(length).iter().zip(at(-length)).enumerate() {
+            derivatives[(row, column)] = (high - low) / (2.0 * length);
+        }
+    }
+    derivatives
+}

@@ -1,0 +1,253 @@
+//! From the optimum to a reconstruction, with what is sure and what is doubtful.
+
+use super::layout::Layout;
+use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
+use super::significance::push;
+use super::solve::{KnownNoise, Optimum, Solved};
+use super::uncertainty::Deviations;
+use crate::Scene;
+use crate::bridge::refined::ffi::RefinedScene;
+use crate::reconstruct::SegmentCriterion;
+use crate::reconstruct::collision::{NO_IMPULSE, body_result};
+use crate::reconstruct::flags::{Doubts, flags};
+use crate::reconstruct::result::{
+    Alternative, BodyResult, Estimate, Fit, NoiseReport, Preset, RESULT_SCHEMA, Reconstruction,
+};
+use crate::reconstruct::scatter::position_scatter_m;
+
+const NO_DATA: &str = "the poses don't determine it";
+const ONLY_A_BOUND: &str =
+    "a body's jump in velocity doesn't stand out of the noise: the mass ratio is at best a bound";
+const NO_NOISE: &str = "too few poses to tell the noise, and the scene states none";
+/// Optima whose χ² is larger by more are improbable: three standard deviations.
+const NEARLY_AS_GOOD: f64 = 9.0;
+
+/// The reconstruction that `solved` stands for.
+pub(super) fn reconstruction(
+    scene: &Scene,
+    refined: &RefinedScene,
+    solved: &Solved,
+) -> Reconstruction {
+    let best = &solved.optima[0];
+    let has_spin: Vec<bool> = refined.bodies.iter().map(|body| body.has_spin).collect();
+    let collision = collision(scene, &best.solution.unknowns, &has_spin);
+    let layout = Layout::new(refined);
+    let derivatives = derivatives(scene, &layout, best, &has_spin);
+    let deviations = Deviations::new(best, solved.noise, derivatives);
+    let push = push(&collision, &deviations, solved.noise, solved.segments);
+    let noise_known = noise_known(refined, solved.noise);
+    let estimator = Estimator { deviations: &deviations, noise_known };
+    let fit = fit(scene, refined, solved);
+    let mass_ratio = collision.mass_ratio.map(|value| match (push.any, push.all) {
+        (false, _) => Estimate::unknown(NO_IMPULSE),
+        (true, false) => Estimate::unknown(ONLY_A_BOUND),
+        (true, true) => estimator.ratio(0, value),
+    });
+    let restitution = match &collision.restitution {
+        _ if !push.any => Estimate::unknown(NO_IMPULSE),
+        Ok(value) => estimator.estimate(1, *value),
+        Err(reason) => Estimate::unknown(reason),
+    };
+    let contact = collision.contact.filter(|_| push.any);
+    let knows_point = deviations.std[CONTACT_POINT..CONTACT_POINT + 3].iter().all(Option::is_some)
+        && (has_spin.contains(&true) || collision.restitution.is_ok());
+    let doubts = Doubts {
+        mass_ratio: collision.mass_ratio,
+        restitution: clear_restitution(&restitution),
+        converged: best.solution.converged,
+        push,
+        scatter_m: position_scatter_m(scene, collision.time_s),
+    };
+    Reconstruction {
+        schema: RESULT_SCHEMA.to_string(),
+        scene: scene.name().to_string(),
+        preset: Preset::Refined,
+        segment_by: SegmentCriterion::Cost,
+        flags: flags(scene, &fit, &doubts),
+        mass_ratio,
+        restitution,
+        collision_time: match push.any {
+            true => estimator.estimate(2, collision.time_s),
+            false => Estimate::unknown(NO_IMPULSE),
+        },
+        contact_point: contact.filter(|_| knows_point).map(|c| c.point_in_world.into()),
+        impulse: collision.impulse.into(),
+        normal: contact.map(|contact| contact.normal_in_world.into_inner().into()),
+        bodies: bodies(scene, &collision, &deviations),
+        effects: Vec::new(),
+        noise: Some(noise_report(&has_spin, solved.noise)),
+        uncertainty: noise_known.then(|| deviations.table(names(scene))),
+        alternatives: alternatives(scene, solved, &has_spin),
+        fit,
+        phases: solved.phases.clone(),
+        warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
+    }
+}
+
+/// Makes numbers with a deviation and an interval.
+struct Estimator<'a> {
+    deviations: &'a Deviations<'a>,
+    noise_known: bool,
+}
+
+impl Estimator<'_> {
+    /// Number `index`, with an interval symmetric about it.
+    fn estimate(&self, index: usize, value: f64) -> Estimate {
+        self.with_interval(index, value, |value, reach| [value - reach, value + reach])
+    }
+
+    /// A ratio: its logarithm has the symmetric interval.
+    fn ratio(&self, index: usize, value: f64) -> Estimate {
+        self.with_interval(index, value, |value, reach| {
+            [value * (-reach / value).exp(), value * (reach / value).exp()]
+        })
+    }
+
+    fn with_interval(
+        &self,
+        index: usize,
+        value: f64,
+        interval: impl Fn(f64, f64) -> [f64; 2],
+    ) -> Estimate {
+        let Some(std) = self.deviations.std[index] else { return Estimate::unknown(NO_DATA) };
+        if !self.noise_known {
+            return Estimate {
+                value: Some(value),
+                std: None,
+                interval_95: None,
+                reason: Some(NO_NOISE.to_string()),
+            };
+        }
+        let reach = self.deviations.factor_95(index) * std;
+        let interval_95 = Some(interval(value, reach)).filter(|i| i.iter().all(|x| x.is_finite()));
+        Estimate { value: Some(value), std: Some(std), interval_95, reason: None }
+    }
+}
+
+/// A restitution whose interval is all outside 0 to 1 is out of range; else the nearest within.
+fn clear_restitution(restitution: &Estimate) -> Option<f64> {
+    match restitution.interval_95 {
+        Some([low, high]) if low <= 1.0 && high >= 0.0 => {
+            restitution.value.map(|c| c.clamp(0.0, 1.0))
+        }
+        _ => restitution.value,
+    }
+}
+
+/// Whether residuals can be told in deviations: the noise of each channel is stated, or estimated
+/// from spare numbers.
+fn noise_known(refined: &RefinedScene, noise: KnownNoise) -> bool {
+    let enough = |dof: Option<f64>| dof.is_none_or(|dof| dof > 1.5);
+    let turns = refined.bodies.iter().any(|body| body.has_spin);
+    enough(noise.position_dof) && (!turns || enough(noise.orientation_dof))
+}
+
+fn noise_report(has_spin: &[bool], noise: KnownNoise) -> NoiseReport {
+    NoiseReport {
+        position: noise.value.position,
+        orientation: has_spin.contains(&true).then_some(noise.value.orientation),
+        estimated: noise.position_dof.is_some(),
+    }
+}
+
+fn bodies(scene: &Scene, collision: &Collision, deviations: &Deviations) -> Vec<BodyResult> {
+    let known = |index: usize, quantity: &str| {
+        let first = body_place(index, quantity);
+        deviations.std[first..first + 3].iter().all(Option::is_some)
+    };
+    scene
+        .bodies()
+        .iter()
+        .zip(&collision.states)
+        .enumerate()
+        .map(|(index, (body, states))| {
+            let mut states = *states;
+            states.spin_before_known &= known(index, "angular_velocity_before");
+            states.spin_after_known &= known(index, "angular_velocity_after");
+            body_result(&body.name, &states)
+        })
+        .collect()
+}
+
+fn fit(scene: &Scene, refined: &RefinedScene, solved: &Solved) -> Fit {
+    let best = &solved.optima[0];
+    let poses = refined.bodies.iter().flat_map(|body| body.poses.iter().map(move |p| (body, p)));
+    let (mut position_m2, mut turn_rad2, mut positions, mut turns) = (0.0, 0.0, 0_usize, 0_usize);
+    for ((body, pose), residual) in poses.zip(&best.solution.residuals) {
+        position_m2 += residual.position_m.iter().map(|x| x * x).sum::<f64>();
+        positions += 3;
+        if body.has_spin && pose.has_orientation {
+            turn_rad2 += residual.turn_rad.iter().map(|x| x * x).sum::<f64>();
+            turns += 3;
+        }
+    }
+    let noise = solved.noise.value;
+    let stated = scene.noise().is_some();
+    let chi2 = stated
+        .then(|| position_m2 / noise.position.powi(2) + turn_rad2 / noise.orientation.powi(2));
+    let dof = (positions + turns) as i64 - used(best).round() as i64;
+    let unmeasured = (turns == 0).then_some("no orientation was fitted");
+    let untested = match (stated, dof) {
+        (false, _) => Some("the scene states no noise"),
+        (_, ..=0) => Some("there are no more measured numbers than free parameters"),
+        _ => None,
+    };
+    let reasons: Vec<&str> = unmeasured.into_iter().chain(untested).collect();
+    Fit {
+        position_rmse: (position_m2 / positions as f64).sqrt(),
+        orientation_rmse: (turns > 0).then(|| (turn_rad2 / turns as f64).sqrt()),
+        chi2,
+        dof,
+        reduced_chi2: chi2.filter(|_| dof > 0).map(|chi2| chi2 / dof as f64),
+        cost: best.solution.cost,
+        reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
+    }
+}
+
+/// How many of the measured numbers the fit used up: the trace of the hat matrix.
+fn used(optimum: &Optimum) -> f64 {
+    let solution = &optimum.solution;
+    [&solution.position_information, &solution.orientation_information]
+        .map(|channel| {
+            let information = super::solve::information(solution, channel);
+            information.component_mul(&optimum.covariance.matrix).sum()
+        })
+        .iter()
+        .sum()
+}
+
+/// Optima nearly as good as the best that say something else.
+fn alternatives(scene: &Scene, solved: &Solved, has_spin: &[bool]) -> Vec<Alternative> {
+    let best = &solved.optima[0];
+    let mut found: Vec<Alternative> = Vec::new();
+    for other in &solved.optima[1..] {
+        let delta_chi2 = 2.0 * (other.solution.cost - best.solution.cost);
+        if delta_chi2 > NEARLY_AS_GOOD || is_same(best, other) {
+            continue;
+        }
+        let collision = collision(scene, &other.solution.unknowns, has_spin);
+        let differs_in = match other.gap == best.gap {
+            true => "whole turns of a spin".to_string(),
+            false => format!("the segment: {:.4} s to {:.4} s", other.gap.start_s, other.gap.end_s),
+        };
+        found.push(Alternative {
+            differs_in,
+            delta_chi2,
+            mass_ratio: collision.mass_ratio,
+            restitution: collision.restitution.ok(),
+            collision_time: collision.time_s,
+        });
+    }
+    found
+}
+
+/// Whether two optima are one: within a tenth of a deviation in time and the spins before.
+fn is_same(a: &Optimum, b: &Optimum) -> bool {
+    let [u, v] = [&a.solution.unknowns, &b.solution.unknowns];
+    let spins = u.bodies.iter().zip(&v.bodies).all(|(a, b)| {
+        let [s, t] = [a, b].map(|m| nalgebra::Vector3::from(m.spin_before));
+        (s - t).norm() < 0.02 * s.norm().max(t.norm()).max(1e-12)
+    });
+    let time = (u.collision_time_s - v.collision_time_s).abs();
+    spins && time < 0.1 * (a.gap.end_s - a.gap.start_s)
+}

@@ -1,0 +1,128 @@
+//! Phase 1, orientations: each flight's rotation by its own poses.
+//!
+//! The two poses that follow each other fastest alias least; the turn between them, and that turn
+//! with a whole one more or less, start a fit that takes in more and more poses. What two poses
+//! can't tell apart the collision decides.
+
+use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
+
+use crate::Result;
+use crate::bridge::refined::ffi::{self, RefinedBody, RefinedPose, SpinFlight};
+use crate::reconstruct::solver_error;
+use crate::rigid_body::quaternion::from_wxyz;
+
+/// No whole turn is added that would make a body spin faster, rad/s: ten turns a second.
+const FASTEST_ALIAS_RAD_S: f64 = 60.0;
+/// Flights whose ½ χ² is larger than the best one's by so much are out of the question.
+const HOPELESS: f64 = 30.0;
+
+/// A flight's orientation and angular momentum l (per unit mass) at the collision.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spin {
+    pub(super) world_from_body: UnitQuaternion<f64>,
+    pub(super) angular_momentum: Vector3<f64>,
+    /// Inverse covariance over (turn in the world, l).
+    pub(super) information: Matrix6<f64>,
+    /// ½ χ².
+    pub(super) cost: f64,
+}
+
+impl Spin {
+    /// The turn from `base` to this orientation, and l, as one vector.
+    pub(super) fn relative_to(&self, base: &UnitQuaternion<f64>) -> Vector6<f64> {
+        let turn = (self.world_from_body * base.inverse()).scaled_axis();
+        Vector6::new(
+            turn.x,
+            turn.y,
+            turn.z,
+            self.angular_momentum.x,
+            self.angular_momentum.y,
+            self.angular_momentum.z,
+        )
+    }
+}
+
+/// The rotations before and after the collision that the body's own poses allow, best first.
+/// `before` and `after` hold its oriented poses outwards from the collision.
+pub(super) fn spins(
+    body: &RefinedBody,
+    collision_time_s: f64,
+    before: &[RefinedPose],
+    after: &[RefinedPose],
+) -> Result<[Vec<Spin>; 2]> {
+    let inertia = Vector3::from(body.inertia_per_mass);
+    let across: Vec<RefinedPose> =
+        before.first().into_iter().chain(after.first()).copied().collect();
+    let flight = |poses: &[RefinedPose], other: &[RefinedPose]| -> Result<Vec<Spin>> {
+        // Where a side has too few poses, the other's spin is the best guess at this one's, and at
+        // last the turn across the collision.
+        let starts = [poses, other, &across]
+            .into_iter()
+            .map(|poses| start_spins(&inertia, poses))
+            .find(|starts| !starts.is_empty())
+            .unwrap_or_default();
+        let poses = if poses.is_empty() { &other[..1] } else { poses };
+        let mut spins = starts
+            .iter()
+            .map(|start| fit(body, collision_time_s, poses, start))
+            .collect::<Result<Vec<_>>>()?;
+        spins.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let least = spins.first().map_or(0.0, |spin| spin.cost);
+        spins.retain(|spin| spin.cost < least + HOPELESS);
+        Ok(spins)
+    };
+    Ok([flight(before, after)?, flight(after, before)?])
+}
+
+fn fit(
+    body: &RefinedBody,
+    collision_time_s: f64,
+    poses: &[RefinedPose],
+    start: &Vector3<f64>,
+) -> Result<Spin> {
+    let flight = SpinFlight {
+        inertia_per_mass: body.inertia_per_mass,
+        collision_time_s,
+        poses: poses.to_vec(),
+        spin: (*start).into(),
+    };
+    let fit = ffi::fit_spin(&flight).map_err(solver_error)?;
+    let inertia = Vector3::from(body.inertia_per_mass);
+    Ok(Spin {
+        world_from_body: from_wxyz(fit.orientation),
+        angular_momentum: fit.spin.into(),
+        information: Matrix6::from_row_slice(&fit.information) + weak_prior(&inertia),
+        cost: fit.cost,
+    })
+}
+
+/// What keeps a flight of a single pose finite: any orientation, any spin of some turns a second.
+fn weak_prior(inertia: &Vector3<f64>) -> Matrix6<f64> {
+    let spin = 1.0 / (FASTEST_ALIAS_RAD_S * inertia.max()).powi(2);
+    let turn = 1.0 / std::f64::consts::PI.powi(2);
+    Matrix6::from_diagonal(&Vector6::new(turn, turn, turn, spin, spin, spin))
+}
+
+/// l from the two poses that follow each other fastest, by the shortest turn and one more either
+/// way; none from fewer than two poses.
+fn start_spins(inertia: &Vector3<f64>, poses: &[RefinedPose]) -> Vec<Vector3<f64>> {
+    let duration = |pair: &&[RefinedPose]| (pair[1].time_s - pair[0].time_s).abs();
+    let fastest = poses.windows(2).min_by(|a, b| duration(a).total_cmp(&duration(b)));
+    let Some([near, far]) = fastest else { return Vec::new() };
+    let duration_s = far.time_s - near.time_s;
+    let from = from_wxyz(near.orientation);
+    let turn = (from_wxyz(far.orientation) * from.inverse()).scaled_axis();
+    let angle = turn.norm();
+    let spin = |turn: Vector3<f64>| {
+        let middle = UnitQuaternion::new(0.5 * turn) * from;
+        let omega_in_body = middle.inverse_transform_vector(&(turn / duration_s));
+        middle * inertia.component_mul(&omega_in_body)
+    };
+    let whole = std::f64::consts::TAU;
+    let alias = |turns: f64| {
+        let other = angle + turns * whole;
+        let possible = angle > 0.0 && other.abs() < FASTEST_ALIAS_RAD_S * duration_s.abs();
+        possible.then(|| spin(turn * (other / angle)))
+    };
+    [Some(spin(turn)), alias(-1.0), alias(1.0)].into_iter().flatten().collect()
+}

@@ -1,0 +1,81 @@
+//! Standard deviations, correlations and intervals of what is reported.
+
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::solve::{KnownNoise, Optimum, information};
+use crate::reconstruct::Uncertainty;
+
+/// The deviations of all reported numbers, by linear propagation.
+pub(super) struct Deviations<'a> {
+    optimum: &'a Optimum,
+    noise: KnownNoise,
+    derivatives: DMatrix<f64>,
+    pub(super) std: Vec<Option<f64>>,
+}
+
+impl<'a> Deviations<'a> {
+    /// `derivatives`: a row for each number, a column for each unknown.
+    pub(super) fn new(optimum: &'a Optimum, noise: KnownNoise, derivatives: DMatrix<f64>) -> Self {
+        let std =
+            derivatives.row_iter().map(|row| optimum.covariance.std(&row.transpose())).collect();
+        Deviations { optimum, noise, derivatives, std }
+    }
+
+    /// The covariance of the `count` numbers from `first` on; `None` where one isn't determined.
+    pub(super) fn covariance(&self, first: usize, count: usize) -> Option<DMatrix<f64>> {
+        self.std[first..first + count].iter().copied().collect::<Option<Vec<f64>>>()?;
+        let rows = self.derivatives.rows(first, count);
+        Some(rows * &self.optimum.covariance.matrix * rows.transpose())
+    }
+
+    /// Student's factor for a 95 % interval of number `index`. Where noise is estimated its degrees
+    /// of freedom are Welch and Satterthwaite's: those of each channel, by its share in the
+    /// variance.
+    pub(super) fn factor_95(&self, index: usize) -> f64 {
+        let dof = self.dof(&self.derivatives.row(index).transpose());
+        match StudentsT::new(0.0, 1.0, dof) {
+            Ok(student) if dof < 1e6 => student.inverse_cdf(0.975),
+            _ => 1.959_963_984_540_054,
+        }
+    }
+
+    /// The degrees of freedom of the noise in the number with this gradient; infinite where the
+    /// noise is stated.
+    fn dof(&self, gradient: &DVector<f64>) -> f64 {
+        let channels = [
+            (self.noise.position_dof, &self.optimum.solution.position_information),
+            (self.noise.orientation_dof, &self.optimum.solution.orientation_information),
+        ];
+        let along = &self.optimum.covariance.matrix * gradient;
+        let variance = gradient.dot(&along);
+        let mut uncertainty = 0.0;
+        for (dof, channel) in channels {
+            let Some(dof) = dof else { continue };
+            let matrix = information(&self.optimum.solution, channel);
+            let share = along.dot(&(matrix * &along)) / variance;
+            if share > 0.0 {
+                uncertainty += share * share / dof.max(1.0);
+            }
+        }
+        1.0 / uncertainty
+    }
+
+    /// As it stands in the result.
+    pub(super) fn table(&self, quantities: Vec<String>) -> Uncertainty {
+        let all =
+            &self.derivatives * &self.optimum.covariance.matrix * self.derivatives.transpose();
+        let correlation = (0..self.std.len())
+            .map(|row| {
+                (0..=row)
+                    .map(|column| {
+                        let product = self.std[row]? * self.std[column]?;
+                        let value = all[(row, column)] / product;
+                        value.is_finite().then(|| value.clamp(-1.0, 1.0))
+                    })
+                    .collect()
+            })
+            .collect();
+        Uncertainty { quantities, std: self.std.clone(), correlation }
+    }
+}
