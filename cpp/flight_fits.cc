@@ -14,18 +14,17 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// The orientation residuals of the first `count` poses of a flight over six unknowns: a turn of the
-// start's orientation in the world, and l. As ceres::TinySolver wants it.
+// The orientation residuals of the first `count` poses of a flight over six unknowns at the first
+// of them: a turn of the start's orientation in the world, and l. As ceres::TinySolver wants it.
 class SpinResiduals {
  public:
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 6 };
 
-  SpinResiduals(const Vector3<double>& inertia, double collision_s, double longest_step_s,
+  SpinResiduals(const Vector3<double>& inertia, double longest_step_s,
                 const Quaternion<double>& start, const std::vector<FlightPose>& poses,
                 std::size_t count)
       : inertia_(inertia),
-        collision_s_(collision_s),
         longest_step_s_(longest_step_s),
         start_(start),
         poses_(poses),
@@ -38,13 +37,13 @@ class SpinResiduals {
     const Vector3<double> l(unknowns[3], unknowns[4], unknowns[5]);
     const Matrix3 start_by_turn = LeftJacobian(turn);
     FreeRotation rotation(inertia_, Multiply(ExpRotation(turn), start_), l);
-    double reached_s = collision_s_;
     for (std::size_t i = 0; i < count_; ++i) {
       const FlightPose& pose = poses_[i];
-      const double duration_s = pose.time_s - reached_s;
-      rotation.Advance(duration_s, FreeRotation::Pairs(duration_s, longest_step_s_),
-                       jacobian != nullptr);
-      reached_s = pose.time_s;
+      if (i > 0) {
+        const double duration_s = pose.time_s - poses_[i - 1].time_s;
+        rotation.Advance(duration_s, FreeRotation::Pairs(duration_s, longest_step_s_),
+                         jacobian != nullptr);
+      }
       const double per_rad = 1.0 / pose.orientation_std_rad;
       const Vector3<double> error =
           LogRotation(Multiply(Conjugate(pose.world_from_body), rotation.world_from_body()));
@@ -65,24 +64,44 @@ class SpinResiduals {
 
  private:
   Vector3<double> inertia_;
-  double collision_s_;
   double longest_step_s_;
   Quaternion<double> start_;
   const std::vector<FlightPose>& poses_;
   std::size_t count_;
 };
 
-// The rotation at the collision that leads to `pose` with the angular momentum `l`.
-FreeRotation BackToCollision(const Vector3<double>& inertia, const FlightPose& pose,
-                             const Vector3<double>& l, double step_s, double collision_s) {
-  FreeRotation rotation(inertia, pose.world_from_body, l);
-  const double duration_s = collision_s - pose.time_s;
-  rotation.Advance(duration_s, FreeRotation::Pairs(duration_s, step_s), false);
-  return rotation;
-}
-
 Eigen::Matrix3d ToMatrix3(const std::array<double, 9>& rows) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+}
+
+// The fit as it is at the collision, from what it is at the first pose: phi(0) there depends on a
+// turn and l here by 1 + Psi [l]x and Psi.
+SpinFit AtCollision(const SpinFlight& flight, double step_s, Quaternion<double> orientation,
+                    const Vector6& unknowns, const std::vector<FlightPose>& poses) {
+  const Vector3<double> inertia = ToVector3(flight.inertia_per_mass);
+  const Vector3<double> l = unknowns.tail<3>();
+  const SpinResiduals residuals(inertia, step_s, orientation, poses, poses.size());
+  Eigen::VectorXd values(residuals.NumResiduals());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian(residuals.NumResiduals(), 6);
+  residuals(unknowns.data(), values.data(), jacobian.data());
+  const double duration_s = poses[0].time_s - flight.collision_time_s;
+  const int pairs = FreeRotation::Pairs(duration_s, step_s);
+  orientation.normalize();
+  FreeRotation back(inertia, orientation, l);
+  back.Advance(-duration_s, pairs, false);
+  FreeRotation forth(inertia, back.world_from_body(), l);
+  forth.Advance(duration_s, pairs, true);
+  Matrix6 first_by_collision = Matrix6::Identity();
+  first_by_collision.topLeftCorner<3, 3>() += forth.psi() * Skew(l);
+  first_by_collision.topRightCorner<3, 3>() = forth.psi();
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> at_collision = jacobian * first_by_collision;
+  SpinFit fit;
+  const Quaternion<double> q = back.world_from_body();
+  std::copy_n(q.data(), 4, fit.orientation.begin());
+  std::copy_n(l.data(), 3, fit.spin.begin());
+  fit.cost = 0.5 * values.squaredNorm();
+  Eigen::Map<Matrix6>(fit.information.data()) = at_collision.transpose() * at_collision;
+  return fit;
 }
 
 }  // namespace
@@ -93,35 +112,25 @@ SpinFit FitSpin(const SpinFlight& flight) {
     if (pose.has_orientation) poses.push_back(ToFlightPose(pose));
   }
   const Vector3<double> inertia = ToVector3(flight.inertia_per_mass);
-  const Vector3<double> l = ToVector3(flight.spin);
-  const double step_s = LongestStep(inertia, poses[0].world_from_body, l);
-  Quaternion<double> start =
-      BackToCollision(inertia, poses[0], l, step_s, flight.collision_time_s).world_from_body();
+  Quaternion<double> orientation = poses[0].world_from_body;
   Vector6 unknowns;
-  unknowns << 0, 0, 0, l;
-  SpinFit fit;
+  unknowns << 0, 0, 0, ToVector3(flight.spin);
+  // A start need not be exact: with steps four times as long the error is 256 times 1e-7 rad.
+  const double step_s = 4.0 * LongestStep(inertia, orientation, unknowns.tail<3>());
   for (std::size_t count = std::min<std::size_t>(2, poses.size());;) {
-    const SpinResiduals residuals(inertia, flight.collision_time_s, step_s, start, poses, count);
+    const SpinResiduals residuals(inertia, step_s, orientation, poses, count);
     ceres::TinySolver<SpinResiduals> solver;
     solver.options.max_num_iterations = 20;
     solver.options.function_tolerance = count == poses.size() ? 1e-8 : 1e-3;
+    // Far under a deviation: nothing to gain.
+    solver.options.cost_threshold = 1e-6;
     solver.Solve(residuals, &unknowns);
-    start = Multiply(ExpRotation(unknowns.head<3>()), start);
+    orientation = Multiply(ExpRotation(unknowns.head<3>()), orientation);
     unknowns.head<3>().setZero();
-    if (count == poses.size()) break;
+    if (count == poses.size() || solver.summary.final_cost > flight.hopeless_cost) break;
     count = std::min(2 * count, poses.size());
   }
-  const SpinResiduals residuals(inertia, flight.collision_time_s, step_s, start, poses,
-                                poses.size());
-  Eigen::VectorXd values(residuals.NumResiduals());
-  Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian(residuals.NumResiduals(), 6);
-  residuals(unknowns.data(), values.data(), jacobian.data());
-  start.normalize();
-  std::copy_n(start.data(), 4, fit.orientation.begin());
-  std::copy_n(unknowns.data() + 3, 3, fit.spin.begin());
-  fit.cost = 0.5 * values.squaredNorm();
-  Eigen::Map<Matrix6>(fit.information.data()) = jacobian.transpose() * jacobian;
-  return fit;
+  return AtCollision(flight, step_s, orientation, unknowns, poses);
 }
 
 JumpFit FitJump(const RefinedScene& scene, rust::Slice<const Jump> jumps,

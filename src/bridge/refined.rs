@@ -127,6 +127,8 @@ pub(crate) mod ffi {
         poses: Vec<RefinedPose>,
         /// l to start from.
         spin: [f64; 3],
+        /// The ½ χ² beyond which nobody wants to know this fit.
+        hopeless_cost: f64,
     }
 
     /// A flight's rotation by its own poses alone, at the collision.

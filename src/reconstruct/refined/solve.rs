@@ -60,8 +60,11 @@ pub(super) fn solve(
     stated: Option<Noise>,
 ) -> Result<Solved> {
     let started = Instant::now();
-    let segments = parabolas.best_segments(MOST_SEGMENTS);
+    let mut segments = parabolas.best_segments(MOST_SEGMENTS);
     let guess = stated.unwrap_or_else(|| first_guess(parabolas, segments[0].squares_m2));
+    let worse_m2 = 2.0 * HOPELESS * guess.position.powi(2);
+    let least_m2 = segments[0].squares_m2;
+    segments.retain(|segment| segment.squares_m2 < least_m2 + worse_m2);
     set_noise(scene, guess);
     let flights_s = started.elapsed().as_secs_f64();
     let mut starts = Vec::new();

@@ -62,13 +62,15 @@ pub(super) fn spins(
             .find(|starts| !starts.is_empty())
             .unwrap_or_default();
         let poses = if poses.is_empty() { &other[..1] } else { poses };
-        let mut spins = starts
-            .iter()
-            .map(|start| fit(body, collision_time_s, poses, start))
-            .collect::<Result<Vec<_>>>()?;
-        spins.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let least = spins.first().map_or(0.0, |spin| spin.cost);
+        let mut spins: Vec<Spin> = Vec::new();
+        let mut least = f64::INFINITY;
+        for start in &starts {
+            let spin = fit(body, collision_time_s, poses, start, least + HOPELESS)?;
+            least = least.min(spin.cost);
+            spins.push(spin);
+        }
         spins.retain(|spin| spin.cost < least + HOPELESS);
+        spins.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         Ok(spins)
     };
     Ok([flight(before, after)?, flight(after, before)?])
@@ -79,12 +81,14 @@ fn fit(
     collision_time_s: f64,
     poses: &[RefinedPose],
     start: &Vector3<f64>,
+    hopeless_cost: f64,
 ) -> Result<Spin> {
     let flight = SpinFlight {
         inertia_per_mass: body.inertia_per_mass,
         collision_time_s,
         poses: poses.to_vec(),
         spin: (*start).into(),
+        hopeless_cost,
     };
     let fit = ffi::fit_spin(&flight).map_err(solver_error)?;
     let inertia = Vector3::from(body.inertia_per_mass);
