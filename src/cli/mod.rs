@@ -2,6 +2,7 @@
 
 mod doctor;
 mod import;
+mod method;
 mod progress;
 mod reconstruct;
 mod schema;
