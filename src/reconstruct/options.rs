@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How to solve.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "preset", rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Options {
     /// The SMASH paper's energy, three phases and segment search, to the letter.
@@ -12,7 +13,7 @@ pub enum Options {
 }
 
 /// Choices of the `paper` preset.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PaperOptions {
     /// Which segment of the search is kept.
     pub segment_by: SegmentCriterion,
