@@ -1,9 +1,8 @@
 //! From files and folders to scenes with a name each.
 
 use std::collections::HashSet;
-use std::ffi::OsStr;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use rayon::prelude::*;
 
@@ -93,7 +92,7 @@ fn place(path: &Path) -> PathBuf {
 
 /// Names all scenes by their file; if two share a name, all by folder and file; and so on.
 fn name(scenes: &mut [Input]) -> Result<()> {
-    let deepest = scenes.iter().map(|input| input.place.iter().count()).max().unwrap_or(0);
+    let deepest = scenes.iter().map(|input| input.place.components().count()).max().unwrap_or(0);
     for depth in 1.. {
         for input in scenes.iter_mut() {
             input.name = name_of(&input.place, depth);
@@ -114,7 +113,11 @@ fn name(scenes: &mut [Input]) -> Result<()> {
 
 /// The last `depth` parts of the path, without `.json`.
 fn name_of(place: &Path, depth: usize) -> String {
-    let mut parts: Vec<_> = place.iter().rev().take(depth).map(OsStr::to_string_lossy).collect();
+    let parts = place.components().rev().filter_map(|part| match part {
+        Component::Normal(part) => Some(part.to_string_lossy()),
+        _ => None,
+    });
+    let mut parts: Vec<_> = parts.take(depth).collect();
     parts.reverse();
     let name = parts.join("_");
     name.strip_suffix(".json").unwrap_or(&name).to_string()
@@ -137,5 +140,17 @@ pub(super) fn refuse_to_overwrite(scenes: &[Input], folder: &OutputFolder) -> Re
         Some(input) => Err(Error::new(ErrorKind::Write, "is an input: a result would replace it")
             .in_file(input.path.display().to_string())
             .mend("choose another folder for the results")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Neither the root nor a slash may get into the name of a file.
+    #[test]
+    fn a_name_ends_at_the_root() {
+        let names = [1, 2, 3, 9].map(|depth| name_of(Path::new("/day/1/scene.json"), depth));
+        assert_eq!(names, ["scene", "1_scene", "day_1_scene", "day_1_scene"]);
     }
 }

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use crate::files::{OutputFolder, display_name, read_text};
+use crate::files::{OutputFolder, display_name, read_text, write_together};
 use crate::reconstruct::{Options, reconstruct};
 use crate::{Result, Scene};
 use inputs::Input;
@@ -53,7 +53,7 @@ impl Batch {
 /// How far a batch is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatchProgress {
-    /// So many scenes were found; tidings of each follow, in any order.
+    /// So many scenes were found; each is told of when it is done with, in any order.
     Found(usize),
     /// One of them is done with.
     Done(Outcome),
@@ -75,7 +75,8 @@ pub enum Outcome {
 ///
 /// An input is a scene file, or a folder, which stands for the `*.json` in it that are scenes, by
 /// name. A result `NAME.result.json` is named after its scene's file; if two share that name, all
-/// are named by folder and file (`FOLDER_NAME`), and so on.
+/// are named by folder and file (`FOLDER_NAME`), and so on. Other files in `folder` are left alone,
+/// also results of scenes that aren't among the inputs any more.
 ///
 /// A result is kept if it says ([`Provenance`]) that it was made from the same content, with the
 /// same options and versions. A scene that fails has a row with the message and no result, doesn't
@@ -104,6 +105,8 @@ pub fn reconstruct_all(
     let found = inputs::find(inputs)?;
     let folder = OutputFolder::open(folder)?;
     inputs::refuse_to_overwrite(&found.scenes, &folder)?;
+    let (csv_table, json_lines_table) =
+        (folder.output(CSV_TABLE)?, folder.output(JSON_LINES_TABLE)?);
     progress(BatchProgress::Found(found.scenes.len()));
     let done: Vec<(Row, Outcome)> = found
         .scenes
@@ -116,8 +119,8 @@ pub fn reconstruct_all(
         .collect::<Result<_>>()?;
     let kept = done.iter().filter(|(_, outcome)| *outcome == Outcome::Kept).count();
     let rows: Vec<Row> = done.into_iter().map(|(row, _)| row).collect();
-    folder.write(CSV_TABLE, table::csv(&rows).as_bytes())?;
-    folder.write(JSON_LINES_TABLE, table::json_lines(&rows).as_bytes())?;
+    let (csv, json_lines) = (table::csv(&rows), table::json_lines(&rows));
+    write_together(&[(&csv_table, csv.as_bytes()), (&json_lines_table, json_lines.as_bytes())])?;
     Ok(Batch { rows, kept, not_scenes: found.not_scenes })
 }
 
@@ -134,19 +137,21 @@ fn finish(input: &Input, folder: &OutputFolder, options: &Options) -> Result<(Ro
     };
     let provenance = Provenance::of(&text, options);
     let name = input.result_name();
-    if let Some(result) = Record::standing(&folder.path_of(&name), &provenance) {
-        return Ok((Row::done(input, &result), Outcome::Kept));
+    let earlier = Record::read(&folder.path_of(&name));
+    if let Some(record) = earlier.as_ref().filter(|record| record.provenance == provenance) {
+        return Ok((Row::done(input, &record.result), Outcome::Kept));
     }
-    let solved = Scene::parse(&text, &file).and_then(|scene| reconstruct(&scene, options));
-    match solved {
+    match Scene::parse(&text, &file).and_then(|scene| reconstruct(&scene, options)) {
         Ok(result) => {
             let record = Record::new(result, provenance);
-            folder.write(&name, record.to_json().as_bytes())?;
+            folder.output(&name)?.write(record.to_json().as_bytes())?;
             Ok((Row::done(input, &record.result), Outcome::Reconstructed))
         }
         Err(error) => {
-            // What is there stands for another content, or for other options.
-            folder.remove(&name)?;
+            if earlier.is_some() {
+                // It stands for another content, or for other options.
+                folder.remove(&name)?;
+            }
             Ok((Row::failed(input, &error.in_file(file)), Outcome::Failed))
         }
     }

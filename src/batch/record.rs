@@ -40,7 +40,7 @@ impl Provenance {
 pub(super) struct Record {
     #[serde(flatten)]
     pub(super) result: Reconstruction,
-    provenance: Provenance,
+    pub(super) provenance: Provenance,
 }
 
 impl Record {
@@ -53,10 +53,9 @@ impl Record {
         Record { result, provenance }
     }
 
-    /// The result in the file `path`, if it is one and of this `provenance`.
-    pub(super) fn standing(path: &Path, provenance: &Provenance) -> Option<Reconstruction> {
-        let record: Record = serde_json::from_str(&read_text(path).ok()?).ok()?;
-        (record.provenance == *provenance).then_some(record.result)
+    /// The record in the file `path`, if it is one.
+    pub(super) fn read(path: &Path) -> Option<Record> {
+        serde_json::from_str(&read_text(path).ok()?).ok()
     }
 
     /// The file's text, with a final newline.

@@ -43,23 +43,19 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     progress.clear();
     let told = if arguments.json { in_json(&batch, folder) } else { in_words(&batch, folder) };
     print_bytes(told.as_bytes())?;
-    failure(&batch, folder).map_or(Ok(()), Err)
+    check_complete(&batch, folder)
 }
 
 /// A table that lacks scenes must not pass for a whole one.
-fn failure(batch: &Batch, folder: &Path) -> Option<Error> {
-    let first = batch.failed().next()?;
-    let problem = format!(
-        "{} of {} scenes failed, first {}",
-        batch.failed().count(),
-        batch.rows.len(),
-        first.error.as_deref().unwrap_or(&first.file)
-    );
-    Some(
-        Error::new(ErrorKind::Solve, problem)
-            .in_file(folder.join(CSV_TABLE).display().to_string())
-            .mend("mend them, or leave them out, and run the same command again: the others' results are kept"),
-    )
+fn check_complete(batch: &Batch, folder: &Path) -> Result<()> {
+    let Some(first) = batch.failed().next() else { return Ok(()) };
+    let (failed, of) = (batch.failed().count(), batch.rows.len());
+    let first = first.error.as_deref().unwrap_or(&first.file);
+    let problem = format!("{failed} of {of} scenes failed, first {first}");
+    let mend = "mend them, or leave them out, and run it again: the other results are kept";
+    Err(Error::new(ErrorKind::Solve, problem)
+        .in_file(folder.join(CSV_TABLE).display().to_string())
+        .mend(mend))
 }
 
 fn in_words(batch: &Batch, folder: &Path) -> String {
@@ -72,24 +68,23 @@ fn in_words(batch: &Batch, folder: &Path) -> String {
 fn write_summary(out: &mut String, batch: &Batch, folder: &Path) -> std::fmt::Result {
     let failed = batch.failed().count();
     let flagged = batch.rows.iter().filter(|row| !row.flags.is_empty()).count();
-    writeln!(out, "{} scenes\n", batch.rows.len())?;
+    writeln!(out, "  scenes          {}", batch.rows.len())?;
     writeln!(out, "  reconstructed   {}", batch.rows.len() - batch.kept - failed)?;
     writeln!(out, "  kept            {}", batch.kept)?;
     writeln!(out, "  failed          {failed}")?;
     writeln!(out, "  flagged         {flagged}")?;
     if let [first, others @ ..] = batch.not_scenes.as_slice() {
-        let more =
-            if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
-        writeln!(out, "\nNot scenes, left out: {}{more}", first.display())?;
+        write!(out, "\nNot scenes, left out: {}", first.display())?;
+        match others.len() {
+            0 => writeln!(out)?,
+            more => writeln!(out, " and {more} more")?,
+        }
     }
+    let result = folder.join("NAME.result.json");
     writeln!(out, "\nWritten")?;
     writeln!(out, "  {}", folder.join(CSV_TABLE).display())?;
     writeln!(out, "  {}", folder.join(JSON_LINES_TABLE).display())?;
-    writeln!(
-        out,
-        "  {}    for each scene that didn't fail",
-        folder.join("NAME.result.json").display()
-    )
+    writeln!(out, "  {}    for each scene that didn't fail", result.display())
 }
 
 fn in_json(batch: &Batch, folder: &Path) -> String {

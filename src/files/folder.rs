@@ -48,12 +48,12 @@ impl OutputFolder {
         self.path.join(name)
     }
 
-    /// Writes all of the file `name`, or leaves what was there before.
+    /// The place of the file `name`, checked as [`Output::check`] does.
     ///
     /// # Errors
-    /// The disk is full, the name is a folder's, or the folder went away.
-    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
-        Output::check(&self.path_of(name), &[])?.write(bytes)
+    /// The name is a folder's or a read-only file's, or the folder went away.
+    pub fn output(&self, name: &str) -> Result<Output> {
+        Output::check(&self.path_of(name), &[])
     }
 
     /// Removes the file `name`, if it is there.
