@@ -6,6 +6,7 @@
 //!  csv)       phases 1 to 3)    and flags)   run forwards)
 //! ```
 
+pub mod batch;
 pub mod files;
 pub mod import;
 pub mod reconstruct;

@@ -1,7 +1,9 @@
 //! The commands of `smash`, one file each.
 
+mod batch;
 mod doctor;
 mod import;
+mod method;
 mod progress;
 mod reconstruct;
 mod schema;
@@ -27,6 +29,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Reconstruct(reconstruct::Arguments),
+    Batch(batch::Arguments),
     Import(import::Arguments),
     Simulate(simulate::Arguments),
     Schema(schema::Arguments),
@@ -39,6 +42,7 @@ pub fn main() -> ExitCode {
     smash::silence_solver_log();
     let outcome = match Arguments::parse().command {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

@@ -1,6 +1,9 @@
 //! One line of progress on standard error; nothing in a pipe.
 
+use std::time::Duration;
+
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use smash::batch::{BatchProgress, Outcome};
 use smash::reconstruct::{Progress, Stage};
 
 /// The line; it disappears when the work is done.
@@ -9,8 +12,20 @@ pub struct ProgressLine(ProgressBar);
 impl ProgressLine {
     /// A line that is only drawn on a terminal.
     pub fn new() -> Self {
+        ProgressLine::with_template("{wide_bar} {msg}")
+    }
+
+    /// The same, for many scenes and with the time left.
+    pub fn of_batch() -> Self {
+        let line = ProgressLine::with_template("{wide_bar} {pos} of {len} scenes, {eta} left");
+        // The time left runs down between the scenes.
+        line.0.enable_steady_tick(Duration::from_secs(1));
+        line
+    }
+
+    fn with_template(template: &str) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{wide_bar} {msg}");
+        let style = ProgressStyle::with_template(template);
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         ProgressLine(bar)
     }
@@ -34,6 +49,16 @@ impl ProgressLine {
                 self.0.inc(1);
                 self.0.set_message(format!("phase 3, the contact point, cost {cost:.3e}"));
             }
+        }
+    }
+
+    /// Shows how far a batch is, from any thread.
+    pub fn show_batch(&self, progress: BatchProgress) {
+        match progress {
+            BatchProgress::Found(scenes) => self.0.set_length(scenes as u64),
+            // It took no time: counted as work, it would spoil the estimate of the time left.
+            BatchProgress::Done(Outcome::Kept) => self.0.dec_length(1),
+            BatchProgress::Done(_) => self.0.inc(1),
         }
     }
 

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use smash::files::{Output, print_bytes, shell_word};
-use smash::reconstruct::{Options, PaperOptions, SegmentCriterion, reconstruct_with_progress};
+use smash::reconstruct::{SegmentCriterion, reconstruct_with_progress};
 use smash::{Reconstruction, Result, Scene};
 
+use super::method::Method;
 use super::progress::ProgressLine;
 use super::summary;
 
@@ -18,47 +19,14 @@ pub struct Arguments {
     /// Where to write the result (smash.result/1), or - for standard output
     #[arg(short, long, value_name = "RESULT")]
     output: Option<PathBuf>,
-    /// The method
-    #[arg(long, default_value = "refined")]
-    preset: Preset,
-    /// What chooses between which two observations the bodies collided, in the paper's method
-    #[arg(long, value_name = "CRITERION")]
-    segment_by: Option<SegmentBy>,
+    #[command(flatten)]
+    method: Method,
     /// Print the result as JSON instead of words
     #[arg(long)]
     json: bool,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Preset {
-    /// The SMASH paper to the letter
-    Paper,
-    /// The most accurate solution, with error bars
-    Refined,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum SegmentBy {
-    /// The paper's criterion: least distance of the two centres (default of `--preset paper`)
-    Distance,
-    /// Least cost of phase 1: right far more often
-    Cost,
-}
-
 impl Arguments {
-    fn options(&self) -> Options {
-        let segment_by = match self.segment_by {
-            Some(SegmentBy::Cost) => SegmentCriterion::Cost,
-            Some(SegmentBy::Distance) | None => SegmentCriterion::Distance,
-        };
-        match self.preset {
-            Preset::Paper => {
-                Options::Paper(PaperOptions { segment_by, ..PaperOptions::default() })
-            }
-            Preset::Refined => Options::default(),
-        }
-    }
-
     /// What is worth trying after `result`.
     fn next_steps(&self, scene: &Scene, result: &Reconstruction) -> Vec<String> {
         let path = shell_word(&self.scene.to_string_lossy());
@@ -93,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());
     let progress = ProgressLine::new();
-    let result = reconstruct_with_progress(&scene, &arguments.options(), &|step| {
+    let result = reconstruct_with_progress(&scene, &arguments.method.options(), &|step| {
         progress.show(step);
     })
     .map_err(|error| error.in_file(arguments.scene.display().to_string()))?;

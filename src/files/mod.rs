@@ -1,9 +1,12 @@
 //! Reading and writing whole files: an output appears complete or not at all.
 
+mod folder;
 mod output;
 mod place;
 
+pub use folder::OutputFolder;
 pub use output::{Output, check_distinct, write_together};
+pub(crate) use place::folder_of;
 
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -77,7 +80,7 @@ pub fn print_bytes(bytes: &[u8]) -> Result<()> {
 }
 
 /// The system's words without its error number.
-fn plain(error: &io::Error) -> String {
+pub(crate) fn plain(error: &io::Error) -> String {
     let text = error.to_string();
     let cut = text.find(" (os error").unwrap_or(text.len());
     let mut chars = text[..cut].chars();

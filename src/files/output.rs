@@ -174,9 +174,13 @@ fn filled(target: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-fn beside(target: &Path) -> io::Result<NamedTempFile> {
+/// How the name of a temporary file begins and ends.
+pub(super) const TEMPORARY: (&str, &str) = (".smash-", ".tmp");
+
+/// A new temporary file in the folder of `target`.
+pub(super) fn beside(target: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".smash-").suffix(".tmp");
+    builder.prefix(TEMPORARY.0).suffix(TEMPORARY.1);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -187,7 +191,7 @@ fn beside(target: &Path) -> io::Result<NamedTempFile> {
 }
 
 /// The error for an output at `path`; only a file has a `target`.
-fn failure(path: &Path, target: Option<&Path>, error: &io::Error) -> Error {
+pub(super) fn failure(path: &Path, target: Option<&Path>, error: &io::Error) -> Error {
     let folder = folder_of(target.unwrap_or(path));
     let mend = match error.kind() {
         io::ErrorKind::NotFound if folder.is_dir() => {

@@ -31,6 +31,13 @@ pub(crate) fn decode<T: DeserializeOwned>(text: &str, file: &str, schema: &str) 
     parse(text).and_then(|tree| decode_tree(&tree)).map_err(|error| error.in_file(file))
 }
 
+/// Whether `text` is JSON in good order, but no file of the kind `schema`.
+pub(crate) fn is_of_another_kind(text: &str, schema: &str) -> bool {
+    parse(text).is_ok_and(
+        |tree| !matches!(tree.field("schema"), Some(Tree::Text(found)) if found == schema),
+    )
+}
+
 /// Checks the field `schema`, which says what kind of file this is.
 pub(crate) fn check_schema(found: &str, expected: &str) -> Result<()> {
     if found == expected {

@@ -9,5 +9,5 @@ mod fault;
 mod parse;
 mod pretty;
 
-pub(crate) use decode::{check_schema, decode};
+pub(crate) use decode::{check_schema, decode, is_of_another_kind};
 pub(crate) use pretty::pretty;

@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How to solve.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "preset", rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Options {
     /// The SMASH paper's energy, three phases and segment search, to the letter.
@@ -14,7 +15,7 @@ pub enum Options {
 }
 
 /// Choices of the `refined` preset.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RefinedOptions {
     /// One σ of the angle about each horizontal axis by which the scene's `up` may be wrong, in rad;
     /// above 0.
@@ -31,7 +32,7 @@ impl Default for RefinedOptions {
 }
 
 /// Choices of the `paper` preset.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PaperOptions {
     /// Which segment of the search is kept.
     pub segment_by: SegmentCriterion,

@@ -216,8 +216,9 @@ pub struct PhaseReport {
     pub cost_final: f64,
     /// Iterations of the optimiser.
     pub iterations: u32,
-    /// Wall time in s; the only number that differs from run to run.
-    pub seconds: f64,
+    /// Wall time in s, the only number that differs from run to run; null in a batch, whose scenes
+    /// share the cores.
+    pub seconds: Option<f64>,
 }
 
 impl Reconstruction {

@@ -37,15 +37,6 @@ fn recover_prints_one_row_a_noise_with_the_truth() {
 }
 
 #[test]
-fn the_folder_example_has_a_row_for_each_scene() {
-    let text = run("folder", &["scenes"]);
-    let scenes = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes")).unwrap();
-    let names = scenes.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let count = names.filter(|n| n.ends_with(".json") && !n.ends_with(".spec.json")).count();
-    assert_eq!(text.lines().count(), 2 + count, "{text}");
-}
-
-#[test]
 fn the_evaluation_prints_a_row_for_each_noise_and_method_and_draws() {
     let folder = tempfile::tempdir().unwrap();
     let figure = folder.path().join("figure.svg");

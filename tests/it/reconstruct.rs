@@ -190,7 +190,7 @@ fn observations(file: &mut SceneFile) -> impl Iterator<Item = &mut ObservationFi
 fn text_without_seconds(result: &Reconstruction) -> String {
     let mut result = result.clone();
     for phase in &mut result.phases {
-        phase.seconds = 0.0;
+        phase.seconds = None;
     }
     result.to_json()
 }

@@ -61,6 +61,6 @@ fn report(name: &str, solution: &PaperSolution, seconds: f64) -> PhaseReport {
         cost_initial: solution.cost_initial,
         cost_final: solution.cost_final,
         iterations: solution.iterations,
-        seconds,
+        seconds: Some(seconds),
     }
 }

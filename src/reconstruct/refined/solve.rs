@@ -235,5 +235,6 @@ fn phase(
     iterations: u32,
     seconds: f64,
 ) -> PhaseReport {
+    let seconds = Some(seconds);
     PhaseReport { name: name.to_string(), cost_initial, cost_final, iterations, seconds }
 }
