@@ -3,6 +3,8 @@
 #include <ceres/tiny_solver.h>
 #include <ceres/tiny_solver_autodiff_function.h>
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "functors/jump.h"
@@ -74,6 +76,30 @@ Eigen::Matrix3d ToMatrix3(const std::array<double, 9>& rows) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
 }
 
+// A spin that nobody wants to know more of.
+SpinFit Hopeless() {
+  SpinFit fit{};
+  fit.orientation[0] = 1.0;
+  fit.cost = std::numeric_limits<double>::max();
+  return fit;
+}
+
+// Whether a fit to half of these poses misses one of the others as no right spin would: by more
+// than a radian, and by more than noise can do.
+bool IsFarOff(const SpinResiduals& residuals, const Vector6& unknowns,
+              const std::vector<FlightPose>& poses) {
+  constexpr double kFarRad = 1.2;
+  constexpr double kFarDeviations = 8.0;
+  Eigen::VectorXd values(residuals.NumResiduals());
+  residuals(unknowns.data(), values.data(), nullptr);
+  for (Eigen::Index i = 0; 3 * i < values.size(); ++i) {
+    const double deviations = values.segment<3>(3 * i).norm();
+    const double angle = deviations * poses[static_cast<std::size_t>(i)].orientation_std_rad;
+    if (angle > kFarRad && deviations > kFarDeviations) return true;
+  }
+  return false;
+}
+
 // The fit as it is at the collision, from what it is at the first pose: phi(0) there depends on a
 // turn and l here by 1 + Psi [l]x and Psi.
 SpinFit AtCollision(const SpinFlight& flight, double step_s, Quaternion<double> orientation,
@@ -117,17 +143,26 @@ SpinFit FitSpin(const SpinFlight& flight) {
   unknowns << 0, 0, 0, ToVector3(flight.spin);
   // A start need not be exact: with steps four times as long the error is 256 times 1e-7 rad.
   const double step_s = 4.0 * LongestStep(inertia, orientation, unknowns.tail<3>());
+  const double rough_step_s = 2.0 * step_s;
   for (std::size_t count = std::min<std::size_t>(2, poses.size());;) {
-    const SpinResiduals residuals(inertia, step_s, orientation, poses, count);
+    const bool is_first = count <= 2;
+    const bool is_last = count == poses.size();
+    const SpinResiduals residuals(inertia, is_last ? step_s : rough_step_s, orientation, poses,
+                                  count);
+    if (!is_first && std::isfinite(flight.hopeless_cost) && IsFarOff(residuals, unknowns, poses)) {
+      return Hopeless();
+    }
     ceres::TinySolver<SpinResiduals> solver;
-    solver.options.max_num_iterations = 20;
-    solver.options.function_tolerance = count == poses.size() ? 1e-8 : 1e-3;
-    // Far under a deviation: nothing to gain.
-    solver.options.cost_threshold = 1e-6;
+    // From the turn between two poses it is a long way; from there on each fit is near the next.
+    // On the way a deviation is near enough; at the end a thousandth.
+    solver.options.max_num_iterations = is_first ? 20 : 6;
+    solver.options.function_tolerance = is_last ? 1e-6 : 1e-3;
+    solver.options.cost_threshold = is_last ? 1e-6 : 0.1;
     solver.Solve(residuals, &unknowns);
     orientation = Multiply(ExpRotation(unknowns.head<3>()), orientation);
     unknowns.head<3>().setZero();
-    if (count == poses.size() || solver.summary.final_cost > flight.hopeless_cost) break;
+    if (solver.summary.final_cost > flight.hopeless_cost) return Hopeless();
+    if (is_last) break;
     count = std::min(2 * count, poses.size());
   }
   return AtCollision(flight, step_s, orientation, unknowns, poses);

@@ -12,12 +12,13 @@
 #include "ceres_compat.h"
 #include "functors/restitution.h"
 #include "functors/tilt_prior.h"
+#include "validate.h"
 
 namespace smash {
 namespace {
 
 // Radians a step, at the body's fastest.
-constexpr double kLargestStepRad = 0.08;
+constexpr double kLargestStepRad = 0.12;
 
 using MatrixX = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -48,7 +49,7 @@ class RefinedFit {
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.num_threads = 1;
     options.max_num_iterations = 50;
-    options.function_tolerance = 1e-10;
+    options.function_tolerance = 1e-8;
     options.gradient_tolerance = 1e-14;
     options.parameter_tolerance = 1e-12;
     options.logging_type = ceres::SILENT;
@@ -208,6 +209,10 @@ class RefinedFit {
       if (block->place < 0 && ceres_.HasParameterBlock(values)) {
         ceres_.SetParameterBlockConstant(values);
       }
+    }
+    if (log_mass_.place >= 0 && ceres_.HasParameterBlock(log_mass_.values.data())) {
+      ceres_.SetParameterLowerBound(log_mass_.values.data(), 0, -kLargestLogMassRatio);
+      ceres_.SetParameterUpperBound(log_mass_.values.data(), 0, kLargestLogMassRatio);
     }
     if (time_.place < 0) return;
     ceres_.SetParameterLowerBound(time_.values.data(), 0, problem_.earliest_s);

@@ -15,6 +15,8 @@ namespace smash {
 // SMASH section 5.1, "synthetic data".
 inline constexpr double kSmallestMassRatio = 1e-5;
 inline constexpr double kLargestMassRatio = 10.0;
+// Of the refined solver: a mass ratio beyond e^20 either way is none.
+inline constexpr double kLargestLogMassRatio = 20.0;
 
 // Refuses anything that isn't finite, positive, of unit length, equal in number or within bounds
 // where it must be.

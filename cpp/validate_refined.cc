@@ -7,8 +7,6 @@
 namespace smash {
 namespace {
 
-// A mass ratio beyond e^30 either way is none.
-constexpr double kLargestLogMassRatio = 30.0;
 // So many steps of the integrator take a minute.
 constexpr double kLargestTurningRad = 1e7;
 
@@ -49,7 +47,7 @@ void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns) {
   }
   if (!AllFinite(unknowns.tilt) || !AllFinite(unknowns.impulse) ||
       !AllFinite(unknowns.contact_point) || !AllFinite(scene.plane_normal) ||
-      !(std::abs(unknowns.log_mass_ratio) < kLargestLogMassRatio)) {
+      !(std::abs(unknowns.log_mass_ratio) <= kLargestLogMassRatio)) {
     Refuse("a start that isn't finite");
   }
 }

@@ -43,7 +43,8 @@ Quaternion<T> RungeKuttaStep(const Quaternion<T>& q, const Vector3<T>& l,
 //
 // A small turn phi of the orientation and a change d of l obey dphi/dt = A (l x phi + d) with
 // A = R I^-1 R^T. Hence phi(t) = (1 + Psi [l]x) phi(0) + Psi d, where dPsi/dt = A ([l]x Psi + 1)
-// and Psi(0) = 0: one matrix tells both derivatives.
+// and Psi(0) = 0: one matrix tells both derivatives. It is integrated as X = R^T Psi, with
+// dX/dt = I^-1 ([R^T l]x X + R^T) - [omega in body]x X.
 class FreeRotation {
  public:
   FreeRotation(const Vector3<double>& inertia_per_mass, const Quaternion<double>& world_from_body,
@@ -52,8 +53,7 @@ class FreeRotation {
         isotropic_(inertia_per_mass[0] == inertia_per_mass[1] &&
                    inertia_per_mass[1] == inertia_per_mass[2]),
         q_(world_from_body),
-        l_(l),
-        skew_l_(Skew(l)) {}
+        l_(l) {}
 
   // How many pairs of steps cover a duration with none longer than `longest_step_s`.
   static int Pairs(double duration_s, double longest_step_s) {
@@ -61,7 +61,7 @@ class FreeRotation {
   }
 
   const Quaternion<double>& world_from_body() const { return q_; }
-  const Matrix3& psi() const { return psi_; }
+  Matrix3 psi() const { return ToMatrix(q_) * x_; }
   Vector3<double> omega() const { return AngularVelocity(q_, l_, inverse_inertia_); }
 
   // Moves on by `duration_s` (negative: back) in `pairs` pairs of steps. Psi is only needed to the
@@ -73,42 +73,56 @@ class FreeRotation {
     for (int pair = 0; pair < pairs; ++pair) {
       const Quaternion<double> middle = RungeKuttaStep(q_, l_, inverse_inertia_, step_s);
       const Quaternion<double> end = RungeKuttaStep(middle, l_, inverse_inertia_, step_s);
-      if (with_psi) StepPsi(Mobility(q_), Mobility(middle), Mobility(end), 2.0 * step_s);
+      if (with_psi) StepX(Frame(*this, q_), Frame(*this, middle), Frame(*this, end), 2.0 * step_s);
       q_ = end;
     }
   }
 
  private:
-  // A = R I^-1 R^T.
-  Matrix3 Mobility(const Quaternion<double>& q) const {
-    const Matrix3 r = ToMatrix(q);
-    return r * inverse_inertia_.asDiagonal() * r.transpose();
+  // What the rate of X needs of an orientation.
+  struct Frame {
+    Frame(const FreeRotation& rotation, const Quaternion<double>& q)
+        : body_from_world(ToMatrix(q).transpose()),
+          l(body_from_world * rotation.l_),
+          omega(l.cwiseProduct(rotation.inverse_inertia_)) {}
+    Matrix3 body_from_world;
+    Vector3<double> l, omega;
+  };
+
+  Matrix3 Rate(const Frame& frame, const Matrix3& x) const {
+    Matrix3 rate;
+    for (int column = 0; column < 3; ++column) {
+      const Vector3<double> at = x.col(column);
+      rate.col(column) =
+          inverse_inertia_.cwiseProduct(frame.l.cross(at) + frame.body_from_world.col(column)) -
+          frame.omega.cross(at);
+    }
+    return rate;
   }
 
-  void StepPsi(const Matrix3& start, const Matrix3& middle, const Matrix3& end, double step_s) {
-    const Matrix3 one = Matrix3::Identity();
-    const Matrix3 k1 = start * (skew_l_ * psi_ + one);
-    const Matrix3 k2 = middle * (skew_l_ * (psi_ + 0.5 * step_s * k1) + one);
-    const Matrix3 k3 = middle * (skew_l_ * (psi_ + 0.5 * step_s * k2) + one);
-    const Matrix3 k4 = end * (skew_l_ * (psi_ + step_s * k3) + one);
-    psi_ += (step_s / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
+  void StepX(const Frame& start, const Frame& middle, const Frame& end, double step_s) {
+    const Matrix3 k1 = Rate(start, x_);
+    const Matrix3 k2 = Rate(middle, x_ + 0.5 * step_s * k1);
+    const Matrix3 k3 = Rate(middle, x_ + 0.5 * step_s * k2);
+    const Matrix3 k4 = Rate(end, x_ + step_s * k3);
+    x_ += (step_s / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
   }
 
   void AdvanceIsotropic(double duration_s, bool with_psi) {
     const Vector3<double> turn = (inverse_inertia_[0] * duration_s) * l_;
+    const Matrix3 psi_before = psi();
     q_ = Multiply(ExpRotation(turn), q_);
     if (!with_psi) return;
     // Psi(s + t) = exp([omega] t) Psi(s) + (t / I) J_l(omega t).
-    psi_ = ToMatrix(ExpRotation(turn)) * psi_ +
-           (inverse_inertia_[0] * duration_s) * LeftJacobian(turn);
+    x_ = ToMatrix(q_).transpose() * (ToMatrix(ExpRotation(turn)) * psi_before +
+                                     (inverse_inertia_[0] * duration_s) * LeftJacobian(turn));
   }
 
   Vector3<double> inverse_inertia_;
   bool isotropic_;
   Quaternion<double> q_;
   Vector3<double> l_;
-  Matrix3 skew_l_;
-  Matrix3 psi_ = Matrix3::Zero();
+  Matrix3 x_ = Matrix3::Zero();
 };
 
 }  // namespace smash

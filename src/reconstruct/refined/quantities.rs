@@ -26,7 +26,11 @@ pub(super) struct Collision {
 /// The collision that `unknowns` stand for. `has_spin`: of each body.
 pub(super) fn collision(scene: &Scene, unknowns: &RefinedUnknowns, has_spin: &[bool]) -> Collision {
     let impulse = Vector3::from(unknowns.impulse);
-    let point = Vector3::from(unknowns.contact_point);
+    // Without any spin nothing tells the line of action: through the centres, as of balls.
+    let point = match has_spin.contains(&true) {
+        true => Vector3::from(unknowns.contact_point),
+        false => Vector3::from(unknowns.bodies[0].position),
+    };
     let mass_ratio = (scene.bodies().len() == 2).then(|| unknowns.log_mass_ratio.exp());
     let states: Vec<States> = scene
         .bodies()
@@ -45,8 +49,9 @@ pub(super) fn collision(scene: &Scene, unknowns: &RefinedUnknowns, has_spin: &[b
                 angular_momentum_in_world: mass * Vector3::from(motion.spin_before),
                 ..RigidBody::solid(&body.shape, mass)
             };
+            let at = if has_spin[index] { point } else { before.position_in_world };
             States {
-                after: before.pushed(&point, &kick),
+                after: before.pushed(&at, &kick),
                 before,
                 spin_before_known: has_spin[index],
                 spin_after_known: has_spin[index],

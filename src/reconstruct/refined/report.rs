@@ -3,7 +3,7 @@
 use super::layout::Layout;
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
 use super::significance::push;
-use super::solve::{KnownNoise, Optimum, Solved};
+use super::solve::{KnownNoise, Optimum, Solved, positions, turns};
 use super::uncertainty::Deviations;
 use crate::Scene;
 use crate::bridge::refined::ffi::RefinedScene;
@@ -171,22 +171,14 @@ fn bodies(scene: &Scene, collision: &Collision, deviations: &Deviations) -> Vec<
 
 fn fit(scene: &Scene, refined: &RefinedScene, solved: &Solved) -> Fit {
     let best = &solved.optima[0];
-    let poses = refined.bodies.iter().flat_map(|body| body.poses.iter().map(move |p| (body, p)));
-    let (mut position_m2, mut turn_rad2, mut positions, mut turns) = (0.0, 0.0, 0_usize, 0_usize);
-    for ((body, pose), residual) in poses.zip(&best.solution.residuals) {
-        position_m2 += residual.position_m.iter().map(|x| x * x).sum::<f64>();
-        positions += 3;
-        if body.has_spin && pose.has_orientation {
-            turn_rad2 += residual.turn_rad.iter().map(|x| x * x).sum::<f64>();
-            turns += 3;
-        }
-    }
+    let (positions, position_m2) = positions(&best.solution);
+    let (turns, turn_rad2) = turns(refined, &best.solution);
     let noise = solved.noise.value;
     let stated = scene.noise().is_some();
     let chi2 = stated
         .then(|| position_m2 / noise.position.powi(2) + turn_rad2 / noise.orientation.powi(2));
-    let dof = (positions + turns) as i64 - used(best).round() as i64;
-    let unmeasured = (turns == 0).then_some("no orientation was fitted");
+    let dof = (positions + turns - used(best)).round() as i64;
+    let unmeasured = (turns == 0.0).then_some("no orientation was fitted");
     let untested = match (stated, dof) {
         (false, _) => Some("the scene states no noise"),
         (_, ..=0) => Some("there are no more measured numbers than free parameters"),
@@ -194,8 +186,8 @@ fn fit(scene: &Scene, refined: &RefinedScene, solved: &Solved) -> Fit {
     };
     let reasons: Vec<&str> = unmeasured.into_iter().chain(untested).collect();
     Fit {
-        position_rmse: (position_m2 / positions as f64).sqrt(),
-        orientation_rmse: (turns > 0).then(|| (turn_rad2 / turns as f64).sqrt()),
+        position_rmse: (position_m2 / positions).sqrt(),
+        orientation_rmse: (turns > 0.0).then(|| (turn_rad2 / turns).sqrt()),
         chi2,
         dof,
         reduced_chi2: chi2.filter(|_| dof > 0).map(|chi2| chi2 / dof as f64),

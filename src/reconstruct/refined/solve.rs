@@ -7,7 +7,8 @@ use nalgebra::DMatrix;
 
 use super::covariance::Covariance;
 use super::model::set_noise;
-use super::parabolas::Parabolas;
+use super::parabolas::{Parabolas, Segment};
+use super::spins::Search;
 use super::start::{Candidate, candidates};
 use crate::bridge::refined::ffi::{
     self, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution, RestitutionPin,
@@ -67,30 +68,97 @@ pub(super) fn solve(
     segments.retain(|segment| segment.squares_m2 < least_m2 + worse_m2);
     set_noise(scene, guess);
     let flights_s = started.elapsed().as_secs_f64();
+    let solve_by = |scene: &mut RefinedScene, search| -> Result<Attempt> {
+        set_noise(scene, guess);
+        let started = Instant::now();
+        let starts = starts(scene, parabolas, &segments, guess, search)?;
+        let jumps_s = started.elapsed().as_secs_f64();
+        let mut optima = optimised(scene, &starts)?;
+        let cost_initial = optima[0].solution.cost_initial;
+        let noise = match stated {
+            Some(value) => KnownNoise { value, position_dof: None, orientation_dof: None },
+            None => settle_noise(scene, &mut optima, guess)?,
+        };
+        let all_s = started.elapsed().as_secs_f64();
+        let best = &optima[0].solution;
+        let phases = vec![
+            phase("2 impulse", starts[0].cost, starts[0].cost, 0, jumps_s),
+            phase("3 everything", cost_initial, best.cost, best.iterations, all_s - jumps_s),
+        ];
+        Ok(Attempt { optima, noise, phases })
+    };
+    let mut attempt = solve_by(scene, Search::Turns)?;
+    if misses_turns(scene, &attempt) {
+        let used = attempt.noise.value;
+        let other = solve_by(scene, Search::AllAxes)?;
+        if other.is_better_than(&attempt) {
+            attempt = other;
+        } else {
+            set_noise(scene, used);
+        }
+    }
+    let position_cost = 0.5 * least_m2 / guess.position.powi(2);
+    let mut phases = vec![phase("1 flights", position_cost, position_cost, 0, flights_s)];
+    phases.append(&mut attempt.phases);
+    let Attempt { optima, noise, .. } = attempt;
+    Ok(Solved { optima, noise, segments: parabolas.segments(), phases })
+}
+
+/// What one search for the spins led to.
+struct Attempt {
+    optima: Vec<Optimum>,
+    noise: KnownNoise,
+    phases: Vec<PhaseReport>,
+}
+
+impl Attempt {
+    /// By the likelihood, in which the noise counts too where it was estimated:
+    /// −ln L = ½ χ² + n ln σ.
+    fn is_better_than(&self, other: &Attempt) -> bool {
+        let score = |attempt: &Attempt| {
+            let solution = &attempt.optima[0].solution;
+            let count = solution.residuals.len() as f64;
+            let noise = attempt.noise.value;
+            solution.cost + 3.0 * count * (noise.position.ln() + noise.orientation.ln())
+        };
+        score(self) < score(other)
+    }
+}
+
+/// Whether orientations are missed so far that a spin may be another: by more than their stated
+/// noise, or by more than an annotator would be off.
+fn misses_turns(scene: &RefinedScene, attempt: &Attempt) -> bool {
+    /// Three degrees.
+    const VISIBLE_RAD: f64 = 0.05;
+    /// Residuals of twice the noise.
+    const POOR_REDUCED_CHI2: f64 = 4.0;
+    let solution = &attempt.optima[0].solution;
+    let noise = attempt.noise;
+    let (count, squares) = turns(scene, solution);
+    let limit = match noise.position_dof {
+        None => POOR_REDUCED_CHI2 * noise.value.orientation.powi(2),
+        Some(_) => VISIBLE_RAD * VISIBLE_RAD,
+    };
+    count > 0.0 && squares / count > limit
+}
+
+/// The starts of phase 3, best first.
+fn starts(
+    scene: &RefinedScene,
+    parabolas: &Parabolas,
+    segments: &[Segment],
+    noise: Noise,
+    search: Search,
+) -> Result<Vec<Candidate>> {
     let mut starts = Vec::new();
-    for segment in &segments {
-        starts.extend(candidates(scene, parabolas, segment, guess)?);
+    for segment in segments {
+        starts.extend(candidates(scene, parabolas, segment, noise, search)?);
     }
     starts.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let least = starts[0].cost;
+    let least = starts.first().map_or(0.0, |start| start.cost);
     starts.retain(|start| start.cost < least + HOPELESS);
     starts.truncate(MOST_STARTS);
-    let jumps_s = started.elapsed().as_secs_f64();
-    let mut optima = optimised(scene, &starts)?;
-    let first_cost = optima[0].solution.cost_initial;
-    let noise = match stated {
-        Some(value) => KnownNoise { value, position_dof: None, orientation_dof: None },
-        None => settle_noise(scene, &mut optima, guess)?,
-    };
-    let best = &optima[0].solution;
-    let all_s = started.elapsed().as_secs_f64();
-    let position_cost = 0.5 * segments[0].squares_m2 / guess.position.powi(2);
-    let phases = vec![
-        phase("1 flights", position_cost, position_cost, 0, flights_s),
-        phase("2 impulse", least, least, 0, jumps_s - flights_s),
-        phase("3 everything", first_cost, best.cost, best.iterations, all_s - jumps_s),
-    ];
-    Ok(Solved { optima, noise, segments: parabolas.segments(), phases })
+    Ok(starts)
 }
 
 /// Minimises from where `unknowns` are, with nothing held.
@@ -111,10 +179,23 @@ pub(super) fn information(solution: &RefinedSolution, channel: &[f64]) -> DMatri
 }
 
 fn optimised(scene: &RefinedScene, starts: &[Candidate]) -> Result<Vec<Optimum>> {
+    all_optima(scene, starts.iter().map(|start| (&start.unknowns, start.gap)))
+}
+
+/// The optima from where they are: their noise has changed.
+fn warm(scene: &RefinedScene, optima: &[Optimum]) -> Result<Vec<Optimum>> {
+    all_optima(scene, optima.iter().map(|known| (&known.solution.unknowns, known.gap)))
+}
+
+/// One that fails doesn't spoil the others.
+fn all_optima<'a>(
+    scene: &RefinedScene,
+    starts: impl Iterator<Item = (&'a ffi::RefinedUnknowns, Gap)>,
+) -> Result<Vec<Optimum>> {
     let mut optima = Vec::new();
     let mut failure = None;
-    for start in starts {
-        match optimum(scene, &free_problem(&start.unknowns, &start.gap), start.gap) {
+    for (unknowns, gap) in starts {
+        match optimum(scene, &free_problem(unknowns, &gap), gap) {
             Ok(optimum) => optima.push(optimum),
             Err(error) => failure = Some(error),
         }
@@ -164,11 +245,7 @@ fn settle_noise(
             && close(next.value.orientation, noise.value.orientation);
         noise = next;
         set_noise(scene, noise.value);
-        for optimum in optima.iter_mut() {
-            let problem = free_problem(&optimum.solution.unknowns, &optimum.gap);
-            *optimum = self::optimum(scene, &problem, optimum.gap)?;
-        }
-        sort(optima);
+        *optima = warm(scene, optima)?;
         if settled {
             break;
         }
@@ -183,32 +260,41 @@ fn close(a: f64, b: f64) -> bool {
 
 fn estimated_noise(scene: &RefinedScene, optimum: &Optimum, noise: Noise) -> KnownNoise {
     let solution = &optimum.solution;
-    let poses = scene.bodies.iter().flat_map(|body| body.poses.iter().map(|p| (body.has_spin, p)));
-    let (mut positions, mut turns) = ((0.0, 0.0), (0.0, 0.0));
-    for ((has_spin, pose), residual) in poses.zip(&solution.residuals) {
-        let square = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
-        positions = (positions.0 + 3.0, positions.1 + square(residual.position_m));
-        if has_spin && pose.has_orientation {
-            turns = (turns.0 + 3.0, turns.1 + square(residual.turn_rad));
-        }
-    }
     let used = |channel: &[f64]| {
         let information = information(solution, channel);
         information.component_mul(&optimum.covariance.matrix).sum()
     };
     let (position, position_dof) = channel_noise(
-        positions,
+        positions(solution),
         used(&solution.position_information),
         noise.position,
         LEAST_NOISE.position,
     );
     let (orientation, orientation_dof) = channel_noise(
-        turns,
+        turns(scene, solution),
         used(&solution.orientation_information),
         noise.orientation,
         LEAST_NOISE.orientation,
     );
     KnownNoise { value: Noise { position, orientation }, position_dof, orientation_dof }
+}
+
+/// How many position coordinates there are, and the sum of their squared residuals, m².
+pub(super) fn positions(solution: &RefinedSolution) -> (f64, f64) {
+    let squares = solution.residuals.iter().map(|residual| square(&residual.position_m));
+    (3.0 * solution.residuals.len() as f64, squares.sum())
+}
+
+/// The same of orientations, rad²; the residual of what isn't annotated is zero.
+pub(super) fn turns(scene: &RefinedScene, solution: &RefinedSolution) -> (f64, f64) {
+    let spinning = scene.bodies.iter().filter(|body| body.has_spin);
+    let oriented = spinning.flat_map(|body| &body.poses).filter(|pose| pose.has_orientation);
+    let squares = solution.residuals.iter().map(|residual| square(&residual.turn_rad));
+    (3.0 * oriented.count() as f64, squares.sum())
+}
+
+fn square(v: &[f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum()
 }
 
 /// The deviation of a channel with `count` numbers of which the fit used up `used`, and what is

@@ -11,10 +11,13 @@ use crate::bridge::refined::ffi::{self, RefinedBody, RefinedPose, SpinFlight};
 use crate::reconstruct::solver_error;
 use crate::rigid_body::quaternion::from_wxyz;
 
-/// No whole turn is added that would make a body spin faster, rad/s: ten turns a second.
-const FASTEST_ALIAS_RAD_S: f64 = 60.0;
+/// No whole turn is added that would make a body spin faster, rad/s: six turns a second.
+const FASTEST_ALIAS_RAD_S: f64 = 6.0 * std::f64::consts::TAU;
 /// Flights whose ½ χ² is larger than the best one's by so much are out of the question.
 const HOPELESS: f64 = 30.0;
+
+/// More rotations of one flight than these are never looked into.
+const MOST_SPINS: usize = 32;
 
 /// A flight's orientation and angular momentum l (per unit mass) at the collision.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +45,15 @@ impl Spin {
     }
 }
 
+/// How hard to look for the spins of a flight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Search {
+    /// The turn between two poses, and one whole turn more or less.
+    Turns,
+    /// And spins about all axes: between sparse poses a tumbling body can do much.
+    AllAxes,
+}
+
 /// The rotations before and after the collision that the body's own poses allow, best first.
 /// `before` and `after` hold its oriented poses outwards from the collision.
 pub(super) fn spins(
@@ -49,6 +61,7 @@ pub(super) fn spins(
     collision_time_s: f64,
     before: &[RefinedPose],
     after: &[RefinedPose],
+    search: Search,
 ) -> Result<[Vec<Spin>; 2]> {
     let inertia = Vector3::from(body.inertia_per_mass);
     let across: Vec<RefinedPose> =
@@ -56,24 +69,57 @@ pub(super) fn spins(
     let flight = |poses: &[RefinedPose], other: &[RefinedPose]| -> Result<Vec<Spin>> {
         // Where a side has too few poses, the other's spin is the best guess at this one's, and at
         // last the turn across the collision.
-        let starts = [poses, other, &across]
+        let mut starts = [poses, other, &across]
             .into_iter()
             .map(|poses| start_spins(&inertia, poses))
             .find(|starts| !starts.is_empty())
             .unwrap_or_default();
+        if search == Search::AllAxes {
+            starts.extend(spins_about_all_axes(&inertia, poses));
+        }
         let poses = if poses.is_empty() { &other[..1] } else { poses };
         let mut spins: Vec<Spin> = Vec::new();
         let mut least = f64::INFINITY;
         for start in &starts {
             let spin = fit(body, collision_time_s, poses, start, least + HOPELESS)?;
             least = least.min(spin.cost);
-            spins.push(spin);
+            if spin.cost < f64::MAX && !spins.iter().any(|known| is_same(known, &spin)) {
+                spins.push(spin);
+            }
         }
         spins.retain(|spin| spin.cost < least + HOPELESS);
         spins.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        spins.truncate(MOST_SPINS);
         Ok(spins)
     };
     Ok([flight(before, after)?, flight(after, before)?])
+}
+
+/// To a hundredth of the spin: fits end where they end to far less.
+fn is_same(a: &Spin, b: &Spin) -> bool {
+    let difference = (a.angular_momentum - b.angular_momentum).norm();
+    difference < 0.01 * a.angular_momentum.norm().max(b.angular_momentum.norm())
+}
+
+/// l along 26 axes evenly about the sphere (Fibonacci's lattice) at three speeds, up to one and a
+/// half turns between the poses that follow each other fastest.
+fn spins_about_all_axes(inertia: &Vector3<f64>, poses: &[RefinedPose]) -> Vec<Vector3<f64>> {
+    const AXES: usize = 26;
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let shortest_s = poses
+        .windows(2)
+        .map(|pair| (pair[1].time_s - pair[0].time_s).abs())
+        .fold(f64::INFINITY, f64::min);
+    let fastest = (1.5 * std::f64::consts::TAU / shortest_s).min(FASTEST_ALIAS_RAD_S);
+    (0..AXES)
+        .flat_map(|index| {
+            let height = 1.0 - (2 * index + 1) as f64 / AXES as f64;
+            let radius = (1.0 - height * height).sqrt();
+            let (sine, cosine) = (golden * index as f64).sin_cos();
+            let axis = Vector3::new(radius * cosine, height, radius * sine);
+            [0.2, 0.5, 0.8].map(|share| inertia.mean() * share * fastest * axis)
+        })
+        .collect()
 }
 
 fn fit(
@@ -117,6 +163,7 @@ fn start_spins(inertia: &Vector3<f64>, poses: &[RefinedPose]) -> Vec<Vector3<f64
     let from = from_wxyz(near.orientation);
     let turn = (from_wxyz(far.orientation) * from.inverse()).scaled_axis();
     let angle = turn.norm();
+    // The middle's spin, l = R I Rᵀ ω.
     let spin = |turn: Vector3<f64>| {
         let middle = UnitQuaternion::new(0.5 * turn) * from;
         let omega_in_body = middle.inverse_transform_vector(&(turn / duration_s));

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 use super::model::{any_spin, has_plane};
 use super::parabolas::{Kink, Parabolas, Segment};
-use super::spins::{Spin, spins};
+use super::spins::{Search, Spin, spins};
 use crate::Result;
 use crate::bridge::refined::ffi::{
     self, Jump, RefinedBody, RefinedMotion, RefinedPose, RefinedScene, RefinedUnknowns,
@@ -16,6 +16,9 @@ use crate::scene::{Gap, Noise};
 
 /// Pairs of flights that a body's orientation can't be the same between are dropped beyond this ½ χ².
 const HOPELESS: f64 = 50.0;
+
+/// More pairs of a body's flights than these are never looked into.
+const MOST_PAIRS: usize = 40;
 
 /// Where phase 3 may start.
 #[derive(Debug, Clone)]
@@ -43,12 +46,13 @@ pub(super) fn candidates(
     parabolas: &Parabolas,
     segment: &Segment,
     noise: Noise,
+    search: Search,
 ) -> Result<Vec<Candidate>> {
     let kinks = parabolas.kinks(segment);
     let pairs = scene
         .bodies
         .iter()
-        .map(|body| body_pairs(body, segment))
+        .map(|body| body_pairs(body, segment, search))
         .collect::<Result<Vec<Vec<Pair>>>>()?;
     let position_cost = 0.5 * segment.squares_m2 / noise.position.powi(2);
     let mut candidates = Vec::new();
@@ -100,7 +104,7 @@ fn combinations(pairs: &[Vec<Pair>]) -> Vec<Vec<Option<&Pair>>> {
 }
 
 /// The pairs of flights that `body` may have made; none where its spin is no unknown.
-fn body_pairs(body: &RefinedBody, segment: &Segment) -> Result<Vec<Pair>> {
+fn body_pairs(body: &RefinedBody, segment: &Segment, search: Search) -> Result<Vec<Pair>> {
     if !body.has_spin {
         return Ok(Vec::new());
     }
@@ -109,7 +113,8 @@ fn body_pairs(body: &RefinedBody, segment: &Segment) -> Result<Vec<Pair>> {
     let middle_s = segment.gap.midpoint_s();
     let split = oriented.partition_point(|pose| pose.time_s < middle_s);
     let outwards: Vec<RefinedPose> = oriented[..split].iter().rev().copied().collect();
-    let [befores, afters] = spins(body, segment.collision_time_s, &outwards, &oriented[split..])?;
+    let [befores, afters] =
+        spins(body, segment.collision_time_s, &outwards, &oriented[split..], search)?;
     let mut pairs: Vec<Pair> = befores
         .iter()
         .flat_map(|before| afters.iter().map(move |after| pair(*before, *after)))
@@ -117,6 +122,7 @@ fn body_pairs(body: &RefinedBody, segment: &Segment) -> Result<Vec<Pair>> {
     pairs.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let least = pairs.first().map_or(0.0, |pair| pair.cost);
     pairs.retain(|pair| pair.cost < least + HOPELESS);
+    pairs.truncate(MOST_PAIRS);
     Ok(pairs)
 }
 

@@ -63,19 +63,21 @@ impl<'a> Deviations<'a> {
 
     /// As it stands in the result.
     pub(super) fn table(&self, quantities: Vec<String>) -> Uncertainty {
+        // What can't vary, or doesn't exist, has a derivative of exactly zero.
+        let std: Vec<Option<f64>> = self.std.iter().map(|std| std.filter(|s| *s > 0.0)).collect();
         let all =
             &self.derivatives * &self.optimum.covariance.matrix * self.derivatives.transpose();
-        let correlation = (0..self.std.len())
+        let correlation = (0..std.len())
             .map(|row| {
                 (0..=row)
                     .map(|column| {
-                        let product = self.std[row]? * self.std[column]?;
+                        let product = std[row]? * std[column]?;
                         let value = all[(row, column)] / product;
                         value.is_finite().then(|| value.clamp(-1.0, 1.0))
                     })
                     .collect()
             })
             .collect();
-        Uncertainty { quantities, std: self.std.clone(), correlation }
+        Uncertainty { quantities, std, correlation }
     }
 }
