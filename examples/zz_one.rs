@@ -25,8 +25,10 @@ fn main() {
             &NoiseSpec::Gaussian(noise),
             seed,
         );
-        if a.len()>6 {f.noise=None;}
-   let Ok(sc) = smash::Scene::from_file(f) else { continue };
+        if a.len() > 6 {
+            f.noise = None;
+        }
+        let Ok(sc) = smash::Scene::from_file(f) else { continue };
         let t = std::time::Instant::now();
         let r = smash::reconstruct(&sc, &smash::Options::default()).unwrap();
         println!(

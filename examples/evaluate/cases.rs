@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use smash::files::read_text;
-use smash::scene::SceneFile;
+use smash::scene::{Noise, SceneFile};
 use smash::simulate::{
     NoiseSpec, RegularSampling, SimulationSpec, add_noise, keep_frames, simulate,
 };
@@ -21,10 +21,37 @@ pub struct Case {
 impl Case {
     /// What an annotator sees: every `interval`-th frame, a gap around the collision, noise.
     pub fn seen(&self, interval: u32, noise: &NoiseSpec, seed: u64) -> Result<Scene> {
+        Scene::from_file(add_noise(self.sparse(interval), noise, seed))
+    }
+
+    fn sparse(&self, interval: u32) -> SceneFile {
         let sampling = RegularSampling { interval, frame_count: self.frame_count, gap: None };
         let frames = sampling.frame_numbers(self.collision_frame);
-        let sparse = keep_frames(self.scene.clone(), &frames);
-        Scene::from_file(add_noise(sparse, noise, seed))
+        keep_frames(self.scene.clone(), &frames)
+    }
+}
+
+/// The least standard deviations that any unbiased estimate can have (Cramér and Rao).
+#[derive(Debug, Clone, Copy)]
+pub struct Bound {
+    /// Relative.
+    pub mass_ratio: f64,
+    pub restitution: f64,
+}
+
+impl Case {
+    /// The bound for Gaussian noise: the deviations of the refined fit to the true poses, where the
+    /// information is the truth's.
+    pub fn bound(&self, interval: u32, noise: Noise) -> Option<Bound> {
+        let mut exact = self.sparse(interval);
+        exact.noise = Some(noise);
+        let scene = Scene::from_file(exact).ok()?;
+        let result = smash::reconstruct(&scene, &smash::Options::default()).ok()?;
+        let mass_ratio = result.mass_ratio?;
+        Some(Bound {
+            mass_ratio: mass_ratio.std? / mass_ratio.value?,
+            restitution: result.restitution.std?,
+        })
     }
 }
 

@@ -42,6 +42,9 @@ struct Arguments {
     /// Only these intervals, in frames
     #[arg(long, value_delimiter = ',', default_values_t = INTERVALS)]
     intervals: Vec<u32>,
+    /// Only these methods: paper; paper, by cost; refined
+    #[arg(long = "method", value_name = "METHOD")]
+    methods: Vec<String>,
     /// Where to draw the figure
     #[arg(long)]
     svg: Option<PathBuf>,
@@ -59,6 +62,9 @@ fn main() -> smash::Result<()> {
     for (noise_name, noise) in noises() {
         for &interval in &arguments.intervals {
             for (method, options) in methods() {
+                if !arguments.methods.is_empty() && !arguments.methods.iter().any(|m| m == method) {
+                    continue;
+                }
                 let outcomes = outcomes(&cases, interval, &noise, &options);
                 let score = Score { noise_name, interval, method, outcomes };
                 println!("{}", score.row());
@@ -83,8 +89,12 @@ fn noises() -> [(&'static str, NoiseSpec); 4] {
     ]
 }
 
-fn methods() -> [(&'static str, Options); 2] {
-    [("paper", Options::paper()), ("paper, by cost", Options::paper_by_cost())]
+fn methods() -> [(&'static str, Options); 3] {
+    [
+        ("paper", Options::paper()),
+        ("paper, by cost", Options::paper_by_cost()),
+        ("refined", Options::default()),
+    ]
 }
 
 fn outcomes(cases: &[Case], interval: u32, noise: &NoiseSpec, options: &Options) -> Vec<Outcome> {
@@ -95,7 +105,11 @@ fn outcomes(cases: &[Case], interval: u32, noise: &NoiseSpec, options: &Options)
         .map(|(seed, case)| {
             let seen = case.seen(interval, noise, seed as u64);
             let result = seen.and_then(|scene| smash::reconstruct(&scene, options));
-            Outcome::of(case, interval, result)
+            let bound = match noise {
+                NoiseSpec::Gaussian(noise) => case.bound(interval, *noise),
+                _ => None,
+            };
+            Outcome::of(case, interval, result, bound)
         })
         .collect()
 }

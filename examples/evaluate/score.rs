@@ -2,8 +2,9 @@
 
 use smash::reconstruct::Flag;
 use smash::{Reconstruction, Result};
+use statrs::function::erf::erf;
 
-use crate::cases::Case;
+use crate::cases::{Bound, Case};
 
 /// One reconstruction against its truth.
 pub struct Outcome {
@@ -15,19 +16,27 @@ pub struct Outcome {
     right_segment: bool,
     /// The paper's signs of failure.
     flagged: bool,
+    /// The least deviations possible, where the noise has any.
+    pub bound: Option<Bound>,
     /// Why there is no result.
     pub failure: Option<String>,
 }
 
 impl Outcome {
-    pub fn of(case: &Case, interval: u32, result: Result<Reconstruction>) -> Outcome {
+    pub fn of(
+        case: &Case,
+        interval: u32,
+        result: Result<Reconstruction>,
+        bound: Option<Bound>,
+    ) -> Outcome {
         match result {
-            Ok(result) => Outcome::of_result(case, interval, &result),
+            Ok(result) => Outcome { bound, ..Outcome::of_result(case, interval, &result) },
             Err(error) => Outcome {
                 mass_ratio_error: f64::INFINITY,
                 restitution_error: f64::INFINITY,
                 right_segment: false,
                 flagged: true,
+                bound,
                 failure: Some(error.to_string()),
             },
         }
@@ -49,6 +58,7 @@ impl Outcome {
             // The gap is two intervals wide and the collision in its middle.
             right_segment: frames_off < f64::from(interval),
             flagged: result.flags.iter().any(is_failure),
+            bound: None,
             failure: None,
         }
     }
@@ -64,7 +74,7 @@ pub struct Score {
 
 /// The table's heading, in Markdown.
 pub const HEADING: &str = "\
-| noise | interval | method | scenes | error of m: median / 90 % | error of c: median / 90 % | right segment | flagged | null |
+| noise | interval | method | scenes | error of m: median / 90 % (bound) | error of c: median / 90 % (bound) | right segment | flagged | null |
 |---|---|---|---|---|---|---|---|---|";
 
 impl Score {
@@ -79,18 +89,32 @@ impl Score {
             eprintln!("failed: {failure}");
         }
         format!(
-            "| {} | {} | {} | {count} | {} / {} | {} / {} | {} | {} | {} |",
+            "| {} | {} | {} | {count} | {} / {}{} | {} / {}{} | {} | {} | {} |",
             self.noise_name,
             self.interval,
             self.method,
             two_digits(self.quantile(0.5, |o| o.mass_ratio_error)),
             two_digits(self.quantile(0.9, |o| o.mass_ratio_error)),
+            self.bounds(|bound| bound.mass_ratio),
             two_digits(self.quantile(0.5, |o| o.restitution_error)),
             two_digits(self.quantile(0.9, |o| o.restitution_error)),
+            self.bounds(|bound| bound.restitution),
             percent(|o| o.right_segment),
             percent(|o| o.flagged),
             percent(|o| o.mass_ratio_error.is_infinite()),
         )
+    }
+
+    /// The median and the 90th percentile of errors that are as small as can be; nothing where the
+    /// noise is none or isn't Gaussian.
+    fn bounds(&self, std: impl Fn(&Bound) -> f64) -> String {
+        let stds: Vec<f64> =
+            self.outcomes.iter().filter_map(|o| o.bound.as_ref()).map(std).collect();
+        if stds.is_empty() {
+            return String::new();
+        }
+        let [median, tail] = [0.5, 0.9].map(|share| two_digits(mixture_quantile(&stds, share)));
+        format!(" ({median} / {tail})")
     }
 
     /// The quantile of an error over the scenes that have a number, linear between them; the other
@@ -106,6 +130,17 @@ impl Score {
         let (low, high) = (errors[place.floor() as usize], errors[place.ceil() as usize]);
         if low == high { low } else { low + (high - low) * place.fract() }
     }
+}
+
+/// The quantile of |x| where x is Gaussian with each of these deviations equally often.
+fn mixture_quantile(stds: &[f64], share: f64) -> f64 {
+    let below = |x: f64| stds.iter().map(|std| erf(x / (std * 2.0_f64.sqrt()))).sum::<f64>();
+    let (mut low, mut high) = (0.0, 10.0 * stds.iter().fold(0.0_f64, |a, b| a.max(*b)));
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if below(middle) < share * stds.len() as f64 { low = middle } else { high = middle }
+    }
+    high
 }
 
 fn two_digits(value: f64) -> String {

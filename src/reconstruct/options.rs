@@ -22,8 +22,9 @@ pub struct RefinedOptions {
     pub tilt_std_rad: f64,
 }
 
-/// A fifth of a degree: a spirit level, or a plumb line in the picture.
-const TILT_STD_RAD: f64 = 0.2 * std::f64::consts::PI / 180.0;
+/// A twentieth of a degree: the base model takes gravity as known. What is off by more is a finding,
+/// not noise.
+const TILT_STD_RAD: f64 = 0.05 * std::f64::consts::PI / 180.0;
 
 impl Default for RefinedOptions {
     fn default() -> Self {
