@@ -33,7 +33,20 @@ fn main() {
                         &smash::Options::default(),
                     )
                     .unwrap();
-                    let r = match smash::reconstruct(&sc, &smash::Options::default()) {
+                    let opt = if std::env::var("ROB").is_ok() {
+                        smash::Options::Refined(smash::reconstruct::RefinedOptions {
+                            loss: smash::reconstruct::Loss::Robust,
+                            ..Default::default()
+                        })
+                    } else if std::env::var("PROF").is_ok() {
+                        smash::Options::Refined(smash::reconstruct::RefinedOptions {
+                            intervals: smash::reconstruct::Intervals::Profile,
+                            ..Default::default()
+                        })
+                    } else {
+                        smash::Options::default()
+                    };
+                    let r = match smash::reconstruct(&sc, &opt) {
                         Ok(r) => r,
                         Err(e) => {
                             println!("seed {seed}: {e}");

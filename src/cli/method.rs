@@ -2,7 +2,9 @@
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
-use smash::reconstruct::{Options, PaperOptions, RefinedOptions, SegmentCriterion};
+use smash::reconstruct::{
+    Intervals, Loss, Options, PaperOptions, RefinedOptions, SegmentCriterion,
+};
 
 /// The method, as it was typed.
 #[derive(Args)]
@@ -13,6 +15,23 @@ pub struct Method {
     /// Between which two observations the bodies collided. The refined method goes by cost
     #[arg(long, value_name = "CRITERION")]
     segment_by: Option<SegmentBy>,
+    /// How sure the scene's `up` is: one standard deviation in degrees (refined method)
+    #[arg(long, value_name = "DEGREES", value_parser = positive)]
+    tilt_std: Option<f64>,
+    /// Let a few wrong annotations hardly count (refined method)
+    #[arg(long)]
+    robust: bool,
+    /// How the 95 % intervals are found (refined method)
+    #[arg(long, value_name = "HOW", default_value = "covariance")]
+    intervals: IntervalsBy,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum IntervalsBy {
+    /// From the covariance at the optimum
+    Covariance,
+    /// From the profile likelihood of mass ratio, restitution and collision time: slower
+    Profile,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -35,18 +54,48 @@ impl Method {
     /// What the library is asked for; ends the program with a usage error if that contradicts
     /// itself.
     pub fn options(&self) -> Options {
-        let paper =
-            |segment_by| Options::Paper(PaperOptions { segment_by, ..PaperOptions::default() });
-        match (self.preset, self.segment_by) {
-            (Preset::Paper, Some(SegmentBy::Cost)) => paper(SegmentCriterion::Cost),
-            (Preset::Paper, _) => paper(SegmentCriterion::Distance),
-            (Preset::Refined, Some(SegmentBy::Distance)) => super::Arguments::command()
-                .error(
-                    ErrorKind::ArgumentConflict,
-                    "`--segment-by distance` is the paper's criterion: add `--preset paper`",
-                )
-                .exit(),
-            (Preset::Refined, _) => Options::Refined(RefinedOptions::default()),
+        match self.preset {
+            Preset::Paper => self.paper(),
+            Preset::Refined => self.refined(),
         }
     }
+
+    fn paper(&self) -> Options {
+        if self.robust || self.intervals != IntervalsBy::Covariance {
+            usage_error(
+                "the paper's method has no `--robust` and no `--intervals`: leave them out",
+            );
+        }
+        let segment_by = match self.segment_by {
+            Some(SegmentBy::Cost) => SegmentCriterion::Cost,
+            Some(SegmentBy::Distance) | None => SegmentCriterion::Distance,
+        };
+        Options::Paper(PaperOptions { segment_by, ..PaperOptions::default() })
+    }
+
+    fn refined(&self) -> Options {
+        if matches!(self.segment_by, Some(SegmentBy::Distance)) {
+            usage_error("`--segment-by distance` is the paper's criterion: add `--preset paper`");
+        }
+        let default = RefinedOptions::default();
+        Options::Refined(RefinedOptions {
+            tilt_std_rad: self.tilt_std.map_or(default.tilt_std_rad, f64::to_radians),
+            loss: if self.robust { Loss::Robust } else { Loss::Squares },
+            intervals: match self.intervals {
+                IntervalsBy::Covariance => Intervals::Covariance,
+                IntervalsBy::Profile => Intervals::Profile,
+            },
+        })
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 90.0 => Ok(value),
+        _ => Err("give an angle above 0, up to 90".to_string()),
+    }
+}
+
+fn usage_error(problem: &str) -> ! {
+    super::Arguments::command().error(ErrorKind::ArgumentConflict, problem).exit()
 }

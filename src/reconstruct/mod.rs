@@ -13,11 +13,11 @@ mod result;
 mod scatter;
 
 pub use flags::Flag;
-pub use options::{Options, PaperOptions, RefinedOptions, SegmentCriterion};
+pub use options::{Intervals, Loss, Options, PaperOptions, RefinedOptions, SegmentCriterion};
 pub use progress::{Progress, Stage};
 pub use result::{
-    Alternative, BodyResult, Effect, Estimate, Fit, NoiseReport, Parameter, PhaseReport, Preset,
-    RESULT_SCHEMA, Reconstruction, Uncertainty,
+    Alternative, BodyResult, Effect, Estimate, Fit, NoiseReport, Outlier, Parameter, PhaseReport,
+    Preset, RESULT_SCHEMA, Reconstruction, Uncertainty,
 };
 
 use crate::{Error, ErrorKind, Result, Scene};

@@ -20,15 +20,45 @@ pub struct RefinedOptions {
     /// One σ of the angle about each horizontal axis by which the scene's `up` may be wrong, in rad;
     /// above 0.
     pub tilt_std_rad: f64,
+    /// What a residual costs.
+    pub loss: Loss,
+    /// How the 95 % intervals are found.
+    pub intervals: Intervals,
 }
 
-/// A twentieth of a degree: the base model takes gravity as known. What is off by more is a finding,
-/// not noise.
-const TILT_STD_RAD: f64 = 0.05 * std::f64::consts::PI / 180.0;
+/// What a residual costs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Loss {
+    /// Its square: best where the noise is Gaussian.
+    Squares,
+    /// Student's t with four degrees of freedom: a few wrong annotations hardly count.
+    Robust,
+}
+
+/// How 95 % intervals are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Intervals {
+    /// From the covariance at the optimum: the model is taken as linear.
+    Covariance,
+    /// From the profile likelihood: slower, right for lopsided ones too.
+    Profile,
+}
+
+/// A hundredth of a degree: the base model takes gravity as known. What is off by more is a finding,
+/// or known to be uncertain and stated.
+const TILT_STD_RAD: f64 = 0.01 * std::f64::consts::PI / 180.0;
 
 impl Default for RefinedOptions {
     fn default() -> Self {
-        RefinedOptions { tilt_std_rad: TILT_STD_RAD }
+        RefinedOptions {
+            tilt_std_rad: TILT_STD_RAD,
+            loss: Loss::Squares,
+            intervals: Intervals::Covariance,
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use std::collections::BTreeMap;
 
-use super::{Flag, SegmentCriterion};
+use super::{Flag, Intervals, SegmentCriterion};
 
 /// The value of a result file's field `schema`.
 pub const RESULT_SCHEMA: &str = "smash.result/1";
@@ -49,6 +49,12 @@ pub struct Reconstruction {
     /// Other optima that are nearly as good.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<Alternative>,
+    /// Poses that lie too far off to be noise, the worst first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outliers: Vec<Outlier>,
+    /// How the 95 % intervals were found; missing in the `paper` preset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub intervals: Option<Intervals>,
     /// How well the model meets the poses.
     pub fit: Fit,
     /// The solver's phases; in the first, the chosen segment's.
@@ -116,6 +122,19 @@ pub struct Alternative {
     pub restitution: Option<f64>,
     /// t_c in s.
     pub collision_time: f64,
+}
+
+/// A pose that lies further off than one in a thousand would by the noise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Outlier {
+    /// The body's name.
+    pub body: String,
+    /// When, in s.
+    pub time: f64,
+    /// `position` or `orientation`.
+    pub channel: String,
+    /// How far off, in σ of a coordinate.
+    pub deviations: f64,
 }
 
 /// Standard deviations and correlations of all reported numbers.

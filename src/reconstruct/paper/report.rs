@@ -71,6 +71,8 @@ pub(super) fn reconstruction(
         noise: None,
         uncertainty: None,
         alternatives: Vec::new(),
+        outliers: Vec::new(),
+        intervals: None,
         fit,
         phases: solved.phases.clone(),
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),

@@ -10,15 +10,20 @@
 mod covariance;
 mod layout;
 mod model;
+mod noise;
+mod optimum;
 mod parabolas;
+mod profile;
 mod quantities;
 mod report;
+mod robust;
 mod significance;
 mod solve;
 mod spins;
 mod start;
 mod uncertainty;
 
+use self::noise::LEAST_NOISE;
 use super::{Reconstruction, RefinedOptions};
 use crate::scene::Noise;
 use crate::{Error, ErrorKind, Result, Scene};
@@ -30,11 +35,11 @@ pub(super) fn reconstruct(scene: &Scene, options: &RefinedOptions) -> Result<Rec
         return Err(Error::new(ErrorKind::Invalid, problem).mend("give an angle above 0"));
     }
     let stated = scene.noise().map(|noise| Noise {
-        position: noise.position.max(solve::LEAST_NOISE.position),
-        orientation: noise.orientation.max(solve::LEAST_NOISE.orientation),
+        position: noise.position.max(LEAST_NOISE.position),
+        orientation: noise.orientation.max(LEAST_NOISE.orientation),
     });
     let parabolas = parabolas::Parabolas::new(scene);
-    let mut refined = model::refined_scene(scene, solve::LEAST_NOISE, options.tilt_std_rad);
-    let solved = solve::solve(&mut refined, &parabolas, stated)?;
-    Ok(report::reconstruction(scene, &refined, &solved))
+    let mut refined = model::refined_scene(scene, LEAST_NOISE, options.tilt_std_rad);
+    let solved = solve::solve(&mut refined, &parabolas, stated, options.loss)?;
+    Ok(report::reconstruction(scene, &refined, &solved, options))
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, UnitQuaternion, Vector3};
 
 use super::layout::Layout;
-use super::solve::Optimum;
+use super::optimum::Optimum;
 use crate::Scene;
 use crate::bridge::refined::ffi::RefinedUnknowns;
 use crate::reconstruct::collision::{States, contact, restitution};

@@ -1,23 +1,28 @@
 //! From the optimum to a reconstruction, with what is sure and what is doubtful.
 
 use super::layout::Layout;
+use super::noise::{KnownNoise, positions, turns};
+use super::optimum::{Optimum, information};
+use super::profile::{Held, Profile};
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
+use super::robust::outliers;
 use super::significance::push;
-use super::solve::{KnownNoise, Optimum, Solved, positions, turns};
+use super::solve::Solved;
 use super::uncertainty::Deviations;
 use crate::Scene;
 use crate::bridge::refined::ffi::RefinedScene;
-use crate::reconstruct::SegmentCriterion;
 use crate::reconstruct::collision::{NO_IMPULSE, body_result};
 use crate::reconstruct::flags::{Doubts, flags};
 use crate::reconstruct::result::{
     Alternative, BodyResult, Estimate, Fit, NoiseReport, Preset, RESULT_SCHEMA, Reconstruction,
 };
 use crate::reconstruct::scatter::position_scatter_m;
+use crate::reconstruct::{Intervals, RefinedOptions, SegmentCriterion};
 
 const NO_DATA: &str = "the poses don't determine it";
 const ONLY_A_BOUND: &str =
     "a body's jump in velocity doesn't stand out of the noise: the mass ratio is at best a bound";
+const NO_INTERVAL: &str = "the likelihood never falls far enough to end an interval";
 const NO_NOISE: &str = "too few poses to tell the noise, and the scene states none";
 /// Optima whose χ² is larger by more are improbable: three standard deviations.
 const NEARLY_AS_GOOD: f64 = 9.0;
@@ -27,6 +32,7 @@ pub(super) fn reconstruction(
     scene: &Scene,
     refined: &RefinedScene,
     solved: &Solved,
+    options: &RefinedOptions,
 ) -> Reconstruction {
     let best = &solved.optima[0];
     let has_spin: Vec<bool> = refined.bodies.iter().map(|body| body.has_spin).collect();
@@ -36,16 +42,22 @@ pub(super) fn reconstruction(
     let deviations = Deviations::new(best, solved.noise, derivatives);
     let push = push(&collision, &deviations, solved.noise, solved.segments);
     let noise_known = noise_known(refined, solved.noise);
-    let estimator = Estimator { deviations: &deviations, noise_known };
+    let gaps = scene.gaps();
+    let profile = Profile { scene: refined, gaps: &gaps, layout: &layout, optimum: best };
+    let estimator = Estimator {
+        deviations: &deviations,
+        noise_known,
+        profile: (options.intervals == Intervals::Profile).then_some(&profile),
+    };
     let fit = fit(scene, refined, solved);
     let mass_ratio = collision.mass_ratio.map(|value| match (push.any, push.all) {
         (false, _) => Estimate::unknown(NO_IMPULSE),
         (true, false) => Estimate::unknown(ONLY_A_BOUND),
-        (true, true) => estimator.ratio(0, value),
+        (true, true) => estimator.mass_ratio(value),
     });
     let restitution = match &collision.restitution {
         _ if !push.any => Estimate::unknown(NO_IMPULSE),
-        Ok(value) => estimator.estimate(1, *value),
+        Ok(value) => estimator.estimate(1, *value, Held::Restitution),
         Err(reason) => Estimate::unknown(reason),
     };
     let contact = collision.contact.filter(|_| push.any);
@@ -67,7 +79,7 @@ pub(super) fn reconstruction(
         mass_ratio,
         restitution,
         collision_time: match push.any {
-            true => estimator.estimate(2, collision.time_s),
+            true => estimator.estimate(2, collision.time_s, Held::CollisionTime),
             false => Estimate::unknown(NO_IMPULSE),
         },
         contact_point: contact.filter(|_| knows_point).map(|c| c.point_in_world.into()),
@@ -78,6 +90,8 @@ pub(super) fn reconstruction(
         noise: Some(noise_report(&has_spin, solved.noise)),
         uncertainty: noise_known.then(|| deviations.table(names(scene))),
         alternatives: alternatives(scene, solved, &has_spin),
+        outliers: outliers(scene, refined, &best.solution, solved.noise.value),
+        intervals: Some(options.intervals),
         fit,
         phases: solved.phases.clone(),
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
@@ -88,39 +102,52 @@ pub(super) fn reconstruction(
 struct Estimator<'a> {
     deviations: &'a Deviations<'a>,
     noise_known: bool,
+    /// Where the intervals come from it.
+    profile: Option<&'a Profile<'a>>,
 }
 
 impl Estimator<'_> {
-    /// Number `index`, with an interval symmetric about it.
-    fn estimate(&self, index: usize, value: f64) -> Estimate {
-        self.with_interval(index, value, |value, reach| [value - reach, value + reach])
-    }
-
-    /// A ratio: its logarithm has the symmetric interval.
-    fn ratio(&self, index: usize, value: f64) -> Estimate {
-        self.with_interval(index, value, |value, reach| {
-            [value * (-reach / value).exp(), value * (reach / value).exp()]
+    /// Number `index`; by the covariance its interval is symmetric.
+    fn estimate(&self, index: usize, value: f64, held: Held) -> Estimate {
+        self.with_interval(index, value, |std, factor| match self.profile {
+            Some(profile) => {
+                profile.interval(held, value, std, &self.deviations.gradient(index), factor)
+            }
+            None => Some([value - factor * std, value + factor * std]),
         })
     }
 
+    /// The mass ratio: its logarithm is the unknown, and has the symmetric interval.
+    fn mass_ratio(&self, value: f64) -> Estimate {
+        self.with_interval(0, value, |std, factor| {
+            let (log, log_std) = (value.ln(), std / value);
+            let gradient = self.deviations.gradient(0) / value;
+            let interval = match self.profile {
+                Some(profile) => {
+                    profile.interval(Held::LogMassRatio, log, log_std, &gradient, factor)
+                }
+                None => Some([log - factor * log_std, log + factor * log_std]),
+            };
+            interval.map(|ends| ends.map(f64::exp))
+        })
+    }
+
+    /// `interval`: from the deviation and Student's factor.
     fn with_interval(
         &self,
         index: usize,
         value: f64,
-        interval: impl Fn(f64, f64) -> [f64; 2],
+        interval: impl Fn(f64, f64) -> Option<[f64; 2]>,
     ) -> Estimate {
         let Some(std) = self.deviations.std[index] else { return Estimate::unknown(NO_DATA) };
         if !self.noise_known {
-            return Estimate {
-                value: Some(value),
-                std: None,
-                interval_95: None,
-                reason: Some(NO_NOISE.to_string()),
-            };
+            let reason = Some(NO_NOISE.to_string());
+            return Estimate { value: Some(value), std: None, interval_95: None, reason };
         }
-        let reach = self.deviations.factor_95(index) * std;
-        let interval_95 = Some(interval(value, reach)).filter(|i| i.iter().all(|x| x.is_finite()));
-        Estimate { value: Some(value), std: Some(std), interval_95, reason: None }
+        let ends = interval(std, self.deviations.factor_95(index));
+        let interval_95 = ends.filter(|ends| ends.iter().all(|end| end.is_finite()));
+        let reason = interval_95.is_none().then(|| NO_INTERVAL.to_string());
+        Estimate { value: Some(value), std: Some(std), interval_95, reason }
     }
 }
 
@@ -201,7 +228,7 @@ fn used(optimum: &Optimum) -> f64 {
     let solution = &optimum.solution;
     [&solution.position_information, &solution.orientation_information]
         .map(|channel| {
-            let information = super::solve::information(solution, channel);
+            let information = information(solution, channel);
             information.component_mul(&optimum.covariance.matrix).sum()
         })
         .iter()

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
+use super::noise::KnownNoise;
 use super::quantities::{Collision, IMPULSE, body_place};
-use super::solve::KnownNoise;
 use super::uncertainty::Deviations;
 use crate::reconstruct::flags::Push;
 

@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::solve::{KnownNoise, Optimum, information};
+use super::noise::KnownNoise;
+use super::optimum::{Optimum, information};
 use crate::reconstruct::Uncertainty;
 
 /// The deviations of all reported numbers, by linear propagation.
@@ -29,11 +30,16 @@ impl<'a> Deviations<'a> {
         Some(rows * &self.optimum.covariance.matrix * rows.transpose())
     }
 
+    /// Number `index`'s derivatives by the unknowns.
+    pub(super) fn gradient(&self, index: usize) -> DVector<f64> {
+        self.derivatives.row(index).transpose()
+    }
+
     /// Student's factor for a 95 % interval of number `index`. Where noise is estimated its degrees
     /// of freedom are Welch and Satterthwaite's: those of each channel, by its share in the
     /// variance.
     pub(super) fn factor_95(&self, index: usize) -> f64 {
-        let dof = self.dof(&self.derivatives.row(index).transpose());
+        let dof = self.dof(&self.gradient(index));
         match StudentsT::new(0.0, 1.0, dof) {
             Ok(student) if dof < 1e6 => student.inverse_cdf(0.975),
             _ => 1.959_963_984_540_054,

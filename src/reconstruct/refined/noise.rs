@@ -1,0 +1,122 @@
+//! The noise of each channel, from what the fit leaves over.
+
+use super::model::set_noise;
+use super::optimum::{Optimum, information, warm};
+use super::parabolas::Parabolas;
+use crate::Result;
+use crate::bridge::refined::ffi::{RefinedScene, RefinedSolution};
+use crate::scene::Noise;
+
+/// Rounds of estimating the noise; it settles to a per mille in three or four.
+const MOST_NOISE_ROUNDS: usize = 8;
+/// Below, the noise is that of rounding and of the integrator.
+pub(super) const LEAST_NOISE: Noise = Noise { position: 1e-9, orientation: 1e-9 };
+
+/// The noise, and how it is known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct KnownNoise {
+    pub(super) value: Noise,
+    /// Spare numbers of each channel that it is estimated from; `None` where it is stated.
+    pub(super) position_dof: Option<f64>,
+    pub(super) orientation_dof: Option<f64>,
+}
+
+impl KnownNoise {
+    pub(super) fn stated(value: Noise) -> Self {
+        KnownNoise { value, position_dof: None, orientation_dof: None }
+    }
+}
+
+/// A noise to start from where none is stated: of positions, what two lines that meet leave over;
+/// of orientations, an annotator's.
+pub(super) fn first_guess(parabolas: &Parabolas, squares_m2: f64) -> Noise {
+    const ANNOTATOR: Noise = Noise { position: 0.002, orientation: 0.01 };
+    let position = match parabolas.spare() {
+        0 => ANNOTATOR.position,
+        spare => (squares_m2 / spare as f64).sqrt(),
+    };
+    Noise { position: position.max(1e-7), ..ANNOTATOR }
+}
+
+/// Estimates the noise of each channel from its residuals and refits until both agree: σ² = RSS over
+/// the channel's numbers minus those that the fit used up (Förstner's variance components).
+pub(super) fn settle_noise(
+    scene: &mut RefinedScene,
+    optima: &mut Vec<Optimum>,
+    guess: Noise,
+) -> Result<KnownNoise> {
+    let mut noise = KnownNoise::stated(guess);
+    for _ in 0..MOST_NOISE_ROUNDS {
+        let next = estimated_noise(scene, &optima[0], noise.value);
+        let settled = close(next.value.position, noise.value.position)
+            && close(next.value.orientation, noise.value.orientation);
+        noise = next;
+        set_noise(scene, noise.value);
+        *optima = warm(scene, optima)?;
+        if settled {
+            break;
+        }
+    }
+    Ok(noise)
+}
+
+/// To a thousandth: far finer than any number of poses tells it.
+fn close(a: f64, b: f64) -> bool {
+    (a / b - 1.0).abs() < 1e-3
+}
+
+fn estimated_noise(scene: &RefinedScene, optimum: &Optimum, noise: Noise) -> KnownNoise {
+    let solution = &optimum.solution;
+    let used = |channel: &[f64]| {
+        let information = information(solution, channel);
+        information.component_mul(&optimum.covariance.matrix).sum()
+    };
+    let (position, position_dof) = channel_noise(
+        positions(solution),
+        used(&solution.position_information),
+        noise.position,
+        LEAST_NOISE.position,
+    );
+    let (orientation, orientation_dof) = channel_noise(
+        turns(scene, solution),
+        used(&solution.orientation_information),
+        noise.orientation,
+        LEAST_NOISE.orientation,
+    );
+    KnownNoise { value: Noise { position, orientation }, position_dof, orientation_dof }
+}
+
+/// How many position coordinates there are, and the sum of their squared residuals, m².
+pub(super) fn positions(solution: &RefinedSolution) -> (f64, f64) {
+    let squares = solution.residuals.iter().map(|residual| square(&residual.position_m));
+    (3.0 * solution.residuals.len() as f64, squares.sum())
+}
+
+/// The same of orientations, rad²; the residual of what isn't annotated is zero.
+pub(super) fn turns(scene: &RefinedScene, solution: &RefinedSolution) -> (f64, f64) {
+    let spinning = scene.bodies.iter().filter(|body| body.has_spin);
+    let oriented = spinning.flat_map(|body| &body.poses).filter(|pose| pose.has_orientation);
+    let squares = solution.residuals.iter().map(|residual| square(&residual.turn_rad));
+    (3.0 * oriented.count() as f64, squares.sum())
+}
+
+fn square(v: &[f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum()
+}
+
+/// The deviation of a channel with `count` numbers of which the fit used up `used`, and what is
+/// spare; as it was where too little is.
+fn channel_noise(
+    (count, squares): (f64, f64),
+    used: f64,
+    before: f64,
+    least: f64,
+) -> (f64, Option<f64>) {
+    /// From fewer the estimate would be off by a factor of two as often as not.
+    const LEAST_SPARE: f64 = 1.5;
+    let spare = count - used;
+    match spare > LEAST_SPARE {
+        true => ((squares / spare).sqrt().max(least), Some(spare)),
+        false => (before, Some(spare.max(0.0))),
+    }
+}
