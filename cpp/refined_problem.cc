@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ceres_compat.h"
+#include "functors/contact_prior.h"
 #include "functors/restitution.h"
 #include "functors/tilt_prior.h"
 #include "validate.h"
@@ -40,6 +41,7 @@ class RefinedFit {
       ceres_.AddResidualBlock(TiltPriorFunctor::Create(scene_.tilt_std_rad), nullptr,
                               tilt_.values.data());
     }
+    if (any_spin()) AddContactPriors();
     if (problem_.restitution.weight > 0) AddRestitution();
     HoldWhatIsKnown();
   }
@@ -52,6 +54,9 @@ class RefinedFit {
     options.function_tolerance = 1e-8;
     options.gradient_tolerance = 1e-14;
     options.parameter_tolerance = 1e-12;
+    // Where nothing tells the contact point a step can lead to a spin beyond all numbers: shorten
+    // it.
+    options.max_num_consecutive_invalid_steps = 50;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);
@@ -174,6 +179,17 @@ class RefinedFit {
     return values;
   }
 
+  void AddContactPriors() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      ceres_.AddResidualBlock(ContactPriorFunctor::Create(contact_, ReachOf(i)), nullptr,
+                              bodies_[i].motion.values.data(), offset_.values.data());
+    }
+  }
+
+  double ReachOf(std::size_t body) const {
+    return Reach(ToVector3(scene_.bodies[body].inertia_per_mass));
+  }
+
   void AddRestitution() {
     const RestitutionPin& pin = problem_.restitution;
     RestitutionFunctor::Contact contact{contact_, ToVector3(scene_.plane_normal), {}};
@@ -287,14 +303,26 @@ class RefinedFit {
     Copy(prior, solution.prior_information);
   }
 
-  // What is known of the tilt beforehand.
+  // What is known of the tilt and the contact point beforehand.
   MatrixX Prior(double& chi2) const {
     MatrixX prior = MatrixX::Zero(size_, size_);
-    if (tilt_.place < 0) return prior;
-    for (int i = 0; i < 2; ++i) {
+    if (tilt_.place >= 0) {
       const double weight = 1.0 / (scene_.tilt_std_rad * scene_.tilt_std_rad);
-      chi2 += weight * tilt_.values[i] * tilt_.values[i];
-      prior(tilt_.place + i, tilt_.place + i) = weight;
+      const Eigen::Map<const Eigen::Vector2d> tilt(tilt_.values.data());
+      chi2 += weight * tilt.squaredNorm();
+      prior.block<2, 2>(tilt_.place, tilt_.place).diagonal().setConstant(weight);
+    }
+    if (offset_.place < 0) return prior;
+    const Eigen::Map<const Eigen::Vector2d> offset(offset_.values.data());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Block& motion = bodies_[i].motion;
+      const Vector3<double> lever =
+          contact_.contact_origin - Vector3<double>(AsVector3(motion.values.data()));
+      MatrixX jacobian = MatrixX::Zero(2, size_);
+      jacobian.middleCols<3>(motion.place) = -contact_.contact_basis.transpose() / ReachOf(i);
+      jacobian.middleCols<2>(offset_.place).diagonal().setConstant(1.0 / ReachOf(i));
+      chi2 += ((contact_.contact_basis.transpose() * lever + offset) / ReachOf(i)).squaredNorm();
+      Accumulate(jacobian, prior);
     }
     return prior;
   }

@@ -7,8 +7,8 @@
 namespace smash {
 namespace {
 
-// So many steps of the integrator take a minute.
-constexpr double kLargestTurningRad = 1e7;
+// Three thousand turns; one evaluation of a flight takes some ten milliseconds then.
+constexpr double kLargestTurningRad = 2e4;
 
 bool IsPositive(double value) { return value > 0 && std::isfinite(value); }
 

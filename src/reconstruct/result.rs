@@ -107,6 +107,9 @@ pub struct NoiseReport {
     pub orientation: Option<f64>,
     /// Estimated from the residuals, not stated in the scene.
     pub estimated: bool,
+    /// Why `orientation` is null.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// Another optimum that explains the poses nearly as well.

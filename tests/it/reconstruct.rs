@@ -31,7 +31,7 @@ const EXACT: Tolerance = Tolerance { ratio: 1e-8, velocity: 1e-8, spin: 0.0, lin
 const EULER: Tolerance = Tolerance { ratio: 5e-3, velocity: 1e-3, spin: 0.08, line: 3e-3 };
 
 fn solved(file: &SceneFile) -> Reconstruction {
-    reconstruct(&scene(file), &Options::default()).unwrap()
+    reconstruct(&scene(file), &Options::paper_by_cost()).unwrap()
 }
 
 fn scene(file: &SceneFile) -> Scene {
@@ -488,7 +488,7 @@ fn progress_tells_each_step_once() {
     let (file, _) = simulated(&every_ninth_frame(SimulationSpec::random_balls(8)));
     let told = Mutex::new(Vec::new());
     let result =
-        reconstruct_with_progress(&scene(&file), &Options::default(), &|step: Progress| {
+        reconstruct_with_progress(&scene(&file), &Options::paper_by_cost(), &|step: Progress| {
             told.lock().unwrap().push(step);
         })
         .unwrap();

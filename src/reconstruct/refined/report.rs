@@ -19,6 +19,7 @@ use crate::reconstruct::result::{
 use crate::reconstruct::scatter::position_scatter_m;
 use crate::reconstruct::{Intervals, RefinedOptions, SegmentCriterion};
 
+const NO_ORIENTATION: &str = "no orientation was fitted";
 const NO_DATA: &str = "the poses don't determine it";
 const ONLY_A_BOUND: &str =
     "a body's jump in velocity doesn't stand out of the noise: the mass ratio is at best a bound";
@@ -61,7 +62,7 @@ pub(super) fn reconstruction(
         Err(reason) => Estimate::unknown(reason),
     };
     let contact = collision.contact.filter(|_| push.any);
-    let knows_point = deviations.std[CONTACT_POINT..CONTACT_POINT + 3].iter().all(Option::is_some)
+    let knows_point = contact_point_is_known(scene, &deviations)
         && (has_spin.contains(&true) || collision.restitution.is_ok());
     let doubts = Doubts {
         mass_ratio: collision.mass_ratio,
@@ -96,6 +97,14 @@ pub(super) fn reconstruction(
         phases: solved.phases.clone(),
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
     }
+}
+
+/// The spins tell the contact point to within a part of the smallest body.
+fn contact_point_is_known(scene: &Scene, deviations: &Deviations) -> bool {
+    let extents = scene.bodies().iter().map(|body| body.shape.shortest_extent_m());
+    let limit_m = 0.5 * extents.fold(f64::INFINITY, f64::min);
+    let stds = &deviations.std[CONTACT_POINT..CONTACT_POINT + 3];
+    stds.iter().all(|std| std.is_some_and(|std| std < limit_m))
 }
 
 /// Makes numbers with a deviation and an interval.
@@ -174,6 +183,7 @@ fn noise_report(has_spin: &[bool], noise: KnownNoise) -> NoiseReport {
         position: noise.value.position,
         orientation: has_spin.contains(&true).then_some(noise.value.orientation),
         estimated: noise.position_dof.is_some(),
+        reason: (!has_spin.contains(&true)).then(|| NO_ORIENTATION.to_string()),
     }
 }
 
@@ -205,7 +215,7 @@ fn fit(scene: &Scene, refined: &RefinedScene, solved: &Solved) -> Fit {
     let chi2 = stated
         .then(|| position_m2 / noise.position.powi(2) + turn_rad2 / noise.orientation.powi(2));
     let dof = (positions + turns - used(best)).round() as i64;
-    let unmeasured = (turns == 0.0).then_some("no orientation was fitted");
+    let unmeasured = (turns == 0.0).then_some(NO_ORIENTATION);
     let untested = match (stated, dof) {
         (false, _) => Some("the scene states no noise"),
         (_, ..=0) => Some("there are no more measured numbers than free parameters"),

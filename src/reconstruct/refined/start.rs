@@ -64,9 +64,10 @@ pub(super) fn candidates(
             .map(|(index, kink)| jump(kink, choice[index], noise))
             .collect();
         let fit = ffi::fit_jump(scene, &jumps, &start).map_err(solver_error)?;
+        let contact_point = within_reach(scene, &kinks, fit.contact_point.into());
         let mut unknowns = RefinedUnknowns {
             impulse: fit.impulse,
-            contact_point: fit.contact_point,
+            contact_point: contact_point.into(),
             log_mass_ratio: fit.log_mass_ratio.clamp(-LARGEST_LOG_MASS, LARGEST_LOG_MASS),
             ..start
         };
@@ -233,7 +234,7 @@ fn contact_start(
         let kick = if index == 0 { *impulse } else { -impulse / mass_ratio };
         let arm = kick.cross(&pair.jump) / kick.norm_squared();
         if arm.iter().all(|x| x.is_finite()) {
-            points.push(kink.position + arm);
+            points.push(within_reach(scene, kinks, kink.position + arm));
         }
     }
     if points.is_empty() || !any_spin(scene) {
@@ -243,6 +244,22 @@ fn contact_start(
     // Along the impulse nothing changes: stay near the bodies.
     let along = impulse.normalize();
     mean + along * along.dot(&(middle - mean))
+}
+
+/// The point, or where the way to it from the middle of the bodies leaves their reach: where there
+/// is hardly an impulse its line of action may seem to lie anywhere.
+fn within_reach(scene: &RefinedScene, kinks: &[Kink], point: Vector3<f64>) -> Vector3<f64> {
+    let middle = kinks.iter().map(|kink| kink.position).sum::<Vector3<f64>>() / kinks.len() as f64;
+    // A box's half diagonal is √(1.5 trace I) for unit mass; a ball's radius is less.
+    let reach_m: f64 = scene
+        .bodies
+        .iter()
+        .map(|body| (1.5 * body.inertia_per_mass.iter().sum::<f64>()).sqrt())
+        .zip(kinks)
+        .map(|(radius, kink)| 2.0 * radius + (kink.position - middle).norm())
+        .sum();
+    let way = point - middle;
+    if way.norm() > reach_m { middle + way * (reach_m / way.norm()) } else { point }
 }
 
 /// Gives each body the velocity, orientation and spin that fit both of its flights best, now that
