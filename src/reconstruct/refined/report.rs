@@ -1,5 +1,7 @@
 //! From the optimum to a reconstruction, with what is sure and what is doubtful.
 
+use nalgebra::Vector3;
+
 use super::layout::Layout;
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
 use super::significance::push;
@@ -74,6 +76,7 @@ pub(super) fn reconstruction(
         impulse: collision.impulse.into(),
         normal: contact.map(|contact| contact.normal_in_world.into_inner().into()),
         bodies: bodies(scene, &collision, &deviations),
+        gravity: Some(gravity(refined, best.solution.unknowns.tilt).into()),
         effects: Vec::new(),
         noise: Some(noise_report(&has_spin, solved.noise)),
         uncertainty: noise_known.then(|| deviations.table(names(scene))),
@@ -82,6 +85,13 @@ pub(super) fn reconstruction(
         phases: solved.phases.clone(),
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
     }
+}
+
+/// The acceleration that all flights share, in m/s²: the scene's, tilted.
+fn gravity(scene: &RefinedScene, tilt: [f64; 2]) -> Vector3<f64> {
+    let [first, second] = scene.across.map(Vector3::from);
+    let along = Vector3::from(scene.down) + tilt[0] * first + tilt[1] * second;
+    scene.gravity_m_s2 * along.normalize()
 }
 
 /// Makes numbers with a deviation and an interval.
