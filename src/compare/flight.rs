@@ -5,9 +5,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::Segment;
 use crate::reconstruct::BodyResult;
 use crate::rigid_body::quaternion::from_wxyz;
-use crate::rigid_body::{LARGEST_TURNING_RAD, RigidBody, rotate_freely, turning_bound_rad};
+use crate::rigid_body::{RigidBody, rotate_freely, turning_bound_rad};
 use crate::scene::{Observation, Shape};
 use crate::{Error, ErrorKind, Result};
+
+/// Some second of work; no annotator follows a body through so many turns.
+const MOST_TURNING_RAD: f64 = 1e5;
 
 /// A body at the collision, and how it flies from there.
 pub(super) struct Flight {
@@ -99,8 +102,8 @@ impl Rotation {
         let farthest_s =
             poses.iter().map(|pose| (pose.time_s - collision_time_s).abs()).fold(0.0, f64::max);
         let turning_rad = turning_bound_rad(&self.inertia, &self.k_in_world, farthest_s);
-        if turning_rad.is_nan() || turning_rad > LARGEST_TURNING_RAD {
-            let problem = format!("turns {turning_rad:.0e} rad until the scene's last pose");
+        if turning_rad.is_nan() || turning_rad > MOST_TURNING_RAD {
+            let problem = format!("turns {turning_rad:.0e} rad until the farthest pose");
             return Err(Error::new(ErrorKind::Invalid, problem)
                 .mend("check the spin, in rad/s; no flight turns so often"));
         }
