@@ -7,6 +7,7 @@
 //! ```
 
 pub mod batch;
+pub mod compare;
 pub mod files;
 pub mod import;
 pub mod reconstruct;
@@ -23,6 +24,7 @@ mod words;
 /// The vectors, quaternions and matrices in this crate's signatures are of this version.
 pub use nalgebra;
 
+pub use compare::{Comparison, compare};
 pub use error::{Error, ErrorKind, Result};
 pub use reconstruct::{Options, Reconstruction, reconstruct, reconstruct_with_progress};
 pub use scene::Scene;

@@ -2,6 +2,7 @@
 
 use schemars::generate::SchemaSettings;
 
+use crate::compare::Comparison;
 use crate::json::pretty;
 use crate::reconstruct::Reconstruction;
 use crate::scene::SceneFile;
@@ -15,6 +16,8 @@ pub enum SchemaKind {
     Scene,
     /// How the bodies collided: `smash.result/1`
     Result,
+    /// Results against the poses and each other: `smash.comparison/1`
+    Comparison,
     /// What to simulate: `smash.simulation/1`
     Simulation,
     /// What a simulated scene was made with: `smash.truth/1`
@@ -30,6 +33,7 @@ pub fn schema(kind: SchemaKind) -> String {
     pretty(&match kind {
         SchemaKind::Scene => generator.into_root_schema_for::<SceneFile>(),
         SchemaKind::Result => generator.into_root_schema_for::<Reconstruction>(),
+        SchemaKind::Comparison => generator.into_root_schema_for::<Comparison>(),
         SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),
         SchemaKind::Truth => generator.into_root_schema_for::<Truth>(),
     })

@@ -1,6 +1,8 @@
 //! The commands of `smash`, one file each.
 
 mod batch;
+mod compare;
+mod comparison;
 mod doctor;
 mod import;
 mod method;
@@ -9,13 +11,13 @@ mod reconstruct;
 mod schema;
 mod simulate;
 mod summary;
+mod table;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use smash::files::Output;
-use smash::scene::Warning;
 use smash::{Error, ErrorKind};
 
 /// Reconstructs how two rigid bodies collided, from a few annotated poses.
@@ -30,6 +32,7 @@ struct Arguments {
 enum Command {
     Reconstruct(reconstruct::Arguments),
     Batch(batch::Arguments),
+    Compare(compare::Arguments),
     Import(import::Arguments),
     Simulate(simulate::Arguments),
     Schema(schema::Arguments),
@@ -43,6 +46,7 @@ pub fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Batch(arguments) => batch::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
@@ -59,7 +63,7 @@ pub fn main() -> ExitCode {
 }
 
 /// Tells of what looks odd, before the work starts.
-fn warn(warnings: &[Warning]) {
+fn warn(warnings: &[impl std::fmt::Display]) {
     for warning in warnings {
         // A closed standard error leaves nobody to tell.
         let _ = writeln!(std::io::stderr(), "warning: {warning}");

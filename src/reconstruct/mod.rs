@@ -8,6 +8,7 @@ mod flags;
 mod options;
 mod paper;
 mod progress;
+mod read;
 mod refined;
 mod result;
 mod scatter;

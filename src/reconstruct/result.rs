@@ -38,6 +38,10 @@ pub struct Reconstruction {
     pub normal: Option<[f64; 3]>,
     /// The dynamic bodies, the reference body first.
     pub bodies: Vec<BodyResult>,
+    /// The acceleration of free fall in the world, m/s², tilted as the fit found it. A file without
+    /// it is read as having the scene's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<[f64; 3]>,
     /// Effects beyond the base model.
     pub effects: Vec<Effect>,
     /// The noise that the fit reckons with; missing in the `paper` preset, which has none.

@@ -7,6 +7,7 @@
 mod bad_input;
 mod batch;
 mod collision;
+mod compare;
 mod docs;
 mod doubts;
 mod examples;

@@ -67,6 +67,7 @@ pub(super) fn reconstruction(
         impulse: impulse.into(),
         normal: contact.map(|contact| contact.normal_in_world.into_inner().into()),
         bodies: scene.bodies().iter().zip(&states).map(|(b, s)| body_result(&b.name, s)).collect(),
+        gravity: Some(gravity(scene, internal, solved.unknowns.tilt).into()),
         effects: Vec::new(),
         noise: None,
         uncertainty: None,
@@ -81,6 +82,12 @@ pub(super) fn reconstruction(
 
 fn world_vector(internal: &InternalScene, v: [f64; 3]) -> Vector3<f64> {
     internal.frame.vector_to_world(v.into())
+}
+
+/// The acceleration that all parabolas share, in m/s²: along R e_y (SMASH eq. 6).
+fn gravity(scene: &Scene, internal: &InternalScene, [tilt, heading]: [f64; 2]) -> Vector3<f64> {
+    let along = [tilt.sin() * heading.sin(), tilt.cos(), tilt.sin() * heading.cos()];
+    scene.gravity_m_s2() * world_vector(internal, along)
 }
 
 /// A jump in spin tells the line of action; else only that of balls, which passes their centres.

@@ -1,5 +1,7 @@
 //! From the optimum to a reconstruction, with what is sure and what is doubtful.
 
+use nalgebra::Vector3;
+
 use super::layout::Layout;
 use super::noise::{KnownNoise, positions, turns};
 use super::optimum::{Optimum, information};
@@ -87,6 +89,7 @@ pub(super) fn reconstruction(
         impulse: collision.impulse.into(),
         normal: contact.map(|contact| contact.normal_in_world.into_inner().into()),
         bodies: bodies(scene, &collision, &deviations),
+        gravity: Some(gravity(refined, best.solution.unknowns.tilt).into()),
         effects: Vec::new(),
         noise: Some(noise_report(&has_spin, solved.noise)),
         uncertainty: noise_known.then(|| deviations.table(names(scene))),
@@ -105,6 +108,13 @@ fn contact_point_is_known(scene: &Scene, deviations: &Deviations) -> bool {
     let limit_m = 0.5 * extents.fold(f64::INFINITY, f64::min);
     let stds = &deviations.std[CONTACT_POINT..CONTACT_POINT + 3];
     stds.iter().all(|std| std.is_some_and(|std| std < limit_m))
+}
+
+/// The acceleration that all flights share, in m/s²: the scene's, tilted.
+fn gravity(scene: &RefinedScene, tilt: [f64; 2]) -> Vector3<f64> {
+    let [first, second] = scene.across.map(Vector3::from);
+    let along = Vector3::from(scene.down) + tilt[0] * first + tilt[1] * second;
+    scene.gravity_m_s2 * along.normalize()
 }
 
 /// Makes numbers with a deviation and an interval.

@@ -1,0 +1,253 @@
+//! A comparison in words and tables, for a person.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use smash::Comparison;
+use smash::compare::{
+    Channel, ChannelResidual, Difference, Entry, Quantity, ResultResiduals, Segment,
+};
+
+use super::table::{aligned, decimals, degrees, lines, millimetres};
+
+/// A part by which two numbers must differ for people to wonder.
+const VISIBLE_SHARE: f64 = 0.05;
+
+/// What `smash compare` prints.
+pub fn in_words(comparison: &Comparison) -> String {
+    let mut text = String::new();
+    // Writing to a string can't fail.
+    let _ = write_all(&mut text, comparison);
+    text
+}
+
+fn write_all(out: &mut String, comparison: &Comparison) -> std::fmt::Result {
+    let name = if comparison.scene.is_empty() { "the collision" } else { &comparison.scene };
+    let names = short_names(comparison);
+    writeln!(out, "{name}\n")?;
+    if names.len() > 1 {
+        write!(out, "{}", aligned(&side_by_side(comparison, &names)))?;
+        writeln!(
+            out,
+            "\nDifferences are from {}, of vectors their length, in σ the coordinate that differs \
+             most. The\nresults come from the same poses: σ is a yardstick here, not a test. \
+             Motions are each at the result's\nown collision time.\n",
+            names[0]
+        )?;
+    }
+    writeln!(out, "Model minus poses, root mean square a coordinate, and the largest miss{}\n", {
+        noise(comparison)
+    })?;
+    write!(out, "{}", aligned(&residuals(comparison, &names)))?;
+    for (name, result) in names.iter().zip(&comparison.results) {
+        if let Some(note) = note(result) {
+            writeln!(out, "\n{name}: {note}")?;
+        }
+    }
+    writeln!(out, "\n{}", failures(comparison, &names))
+}
+
+/// What to know of a result's residuals.
+fn note(result: &ResultResiduals) -> Option<String> {
+    if result.reason.is_some() {
+        return result.reason.clone();
+    }
+    let (own, here) = (result.reported_orientation_rmse?, result.orientation_rmse?);
+    let differs = (own - here).abs() > VISIBLE_SHARE * here;
+    differs.then(|| {
+        format!(
+            "it reports {} itself, by its solver's own steps in time; above, rotation is exact",
+            degrees(own)
+        )
+    })
+}
+
+/// The files' names, without their folders where they differ without.
+fn short_names(comparison: &Comparison) -> Vec<String> {
+    let short: Vec<String> = comparison
+        .results
+        .iter()
+        .map(|result| match Path::new(&result.name).file_name() {
+            Some(name) => name.to_string_lossy().into_owned(),
+            None => result.name.clone(),
+        })
+        .collect();
+    let distinct: std::collections::HashSet<&String> = short.iter().collect();
+    if distinct.len() == short.len() {
+        return short;
+    }
+    comparison.results.iter().map(|result| result.name.clone()).collect()
+}
+
+fn side_by_side(comparison: &Comparison, names: &[String]) -> Vec<Vec<String>> {
+    let mut header = vec![String::new(), names[0].clone()];
+    for name in &names[1..] {
+        header.extend([name.clone(), "difference".into(), String::new()]);
+    }
+    let rows = comparison.quantities.iter().map(|quantity| {
+        let mut row = vec![label(quantity), value(&quantity.entries[0])];
+        for (entry, difference) in quantity.entries[1..].iter().zip(&quantity.differences) {
+            let far = difference.in_sigma.map_or(String::new(), sigmas);
+            row.extend([value(entry), size(quantity, difference), far]);
+        }
+        row
+    });
+    std::iter::once(header).chain(rows).collect()
+}
+
+/// `a.velocity_before` as people say it, with its unit.
+fn label(quantity: &Quantity) -> String {
+    let words = quantity.quantity.replace('_', " ");
+    let words = match words.rsplit_once('.') {
+        Some((body, words)) => format!("{body}  {words}"),
+        None => words,
+    };
+    match quantity.unit.as_str() {
+        "" => words,
+        // The quaternion has no unit; its difference shows its own.
+        "rad" => words,
+        unit => format!("{words} ({unit})"),
+    }
+}
+
+fn value(entry: &Entry) -> String {
+    match (entry.value.as_deref(), entry.std.as_slice()) {
+        (None, _) => "not determined".into(),
+        (Some(&[value]), &[Some(std)]) => format!("{} ± {std:.1e}", decimals(value, 4)),
+        (Some(&[value]), _) => decimals(value, 4),
+        (Some(numbers), _) => {
+            let cells: Vec<String> =
+                numbers.iter().map(|&number| format!("{:>7}", decimals(number, 3))).collect();
+            cells.join(" ")
+        }
+    }
+}
+
+fn size(quantity: &Quantity, difference: &Difference) -> String {
+    let text = match (difference.difference.as_deref(), difference.size) {
+        (Some(&[signed]), _) => decimals(signed, 4),
+        (_, Some(angle)) if quantity.unit == "rad" => degrees(angle),
+        (_, Some(size)) => decimals(size, 3),
+        _ => String::new(),
+    };
+    format!("{text:>10}")
+}
+
+/// One line a channel, and the totals.
+fn residuals(comparison: &Comparison, names: &[String]) -> Vec<Vec<String>> {
+    let mut places: Vec<Place> = Vec::new();
+    for place in comparison.results.iter().flat_map(|result| &result.channels).map(place) {
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    let totals = [Channel::Position, Channel::Orientation]
+        .into_iter()
+        .filter(|channel| places.iter().any(|(_, _, one)| one == channel));
+    let totals: Vec<Channel> = totals.collect();
+    let mut rows = vec![vec![String::new(); 3]];
+    for (body, segment, channel) in &places {
+        rows.push(vec![body.to_string(), side(*segment).into(), kind(*channel).into()]);
+    }
+    rows.extend(totals.iter().map(|one| vec!["all".into(), String::new(), kind(*one).into()]));
+    for (name, result) in names.iter().zip(&comparison.results) {
+        let of_places = places.iter().map(|wanted| {
+            let one = result.channels.iter().find(|one| place(one) == *wanted);
+            one.map_or(vec!["unknown".into()], |one| {
+                let far = one.rmse_in_sigma.map_or(String::new(), sigmas);
+                vec![format!("{:>9}", amount(one.channel, one.rmse)), far, miss(one)]
+            })
+        });
+        let of_totals = totals.iter().map(|channel| {
+            let total = match channel {
+                Channel::Position => result.position_rmse,
+                Channel::Orientation => result.orientation_rmse,
+            };
+            vec![total.map_or("unknown".into(), |total| format!("{:>9}", amount(*channel, total)))]
+        });
+        // One cell a row, so that the name above doesn't widen the first number's column.
+        let cells = lines(&of_places.chain(of_totals).collect::<Vec<_>>());
+        for (row, cell) in rows.iter_mut().zip(std::iter::once(name.clone()).chain(cells)) {
+            row.push(cell);
+        }
+    }
+    rows
+}
+
+type Place<'a> = (&'a str, Segment, Channel);
+
+fn place(one: &ChannelResidual) -> Place<'_> {
+    (&one.body, one.segment, one.channel)
+}
+
+fn miss(one: &ChannelResidual) -> String {
+    let size = amount(one.channel, one.largest.size);
+    format!("{size:>9} at {} s", decimals(one.largest.time, 3))
+}
+
+/// The channels that are off by more than noise, worst first.
+fn failures(comparison: &Comparison, names: &[String]) -> String {
+    if comparison.noise.is_none() {
+        return "Where it fails can't be said: neither the scene nor a result states the noise. Add \
+                `noise` to the\nscene, or compare with a refined result.\n"
+            .into();
+    }
+    let mut worst: Vec<(&String, &ChannelResidual)> = names
+        .iter()
+        .zip(&comparison.results)
+        .flat_map(|(name, result)| result.channels.iter().map(move |one| (name, one)))
+        .filter(|(_, one)| one.stands_out == Some(true))
+        .collect();
+    if worst.is_empty() {
+        return "No channel is off by more than noise can explain.\n".into();
+    }
+    worst.sort_by(|(_, a), (_, b)| {
+        b.rmse_in_sigma.unwrap_or(0.0).total_cmp(&a.rmse_in_sigma.unwrap_or(0.0))
+    });
+    let mut rows = Vec::new();
+    for (name, one) in worst {
+        rows.push(vec![
+            name.clone(),
+            format!("{} {}, {}", one.body, side(one.segment), kind(one.channel)),
+            one.rmse_in_sigma.map_or(String::new(), sigmas),
+            format!("most {}", miss(one).trim_start()),
+        ]);
+    }
+    format!("Where it fails: off by more than noise can explain\n{}", aligned(&rows))
+}
+
+/// The noise, as the title of a table goes on.
+fn noise(comparison: &Comparison) -> String {
+    let Some(noise) = &comparison.noise else { return String::new() };
+    let turn = noise.orientation.map_or(String::new(), |angle| format!(", {}", degrees(angle)));
+    let origin = match &noise.from_result {
+        Some(name) => format!("by {name}"),
+        None => "stated in the scene".into(),
+    };
+    format!(";\nσ: the noise, {}{turn}, {origin}", millimetres(noise.position))
+}
+
+fn side(segment: Segment) -> &'static str {
+    match segment {
+        Segment::Before => "before",
+        Segment::After => "after",
+    }
+}
+
+fn kind(channel: Channel) -> &'static str {
+    match channel {
+        Channel::Position => "position",
+        Channel::Orientation => "orientation",
+    }
+}
+
+fn amount(channel: Channel, value: f64) -> String {
+    match channel {
+        Channel::Position => millimetres(value),
+        Channel::Orientation => degrees(value),
+    }
+}
+
+fn sigmas(count: f64) -> String {
+    format!("{:>6} σ", decimals(count, 1))
+}

@@ -1,0 +1,79 @@
+//! Results against the poses that they were made from, and against each other.
+//!
+//! ```text
+//! scene ──┐
+//! results ┴─► flights ─► residuals by body, segment, channel ──┐
+//!         └─► side by side, with differences in deviations ────┴─► comparison
+//! ```
+
+mod comparison;
+mod flight;
+mod identity;
+mod residuals;
+mod side_by_side;
+
+pub use comparison::{
+    COMPARISON_SCHEMA, Channel, ChannelResidual, ComparedNoise, Comparison, Difference, Entry,
+    LargestMiss, Quantity, ResultResiduals, Segment,
+};
+
+use crate::{Reconstruction, Result, Scene};
+
+/// Compares `results`, each with its name, with the poses of `scene`, and all later ones with the
+/// first.
+///
+/// # Errors
+/// A result is of another scene, has effects beyond the base model, or spins too fast to be
+/// followed; the message names it.
+///
+/// # Example
+/// ```no_run
+/// let scene = smash::Scene::read("scenes/boxes.json")?;
+/// let paper = smash::reconstruct(&scene, &smash::Options::paper())?;
+/// let refined = smash::reconstruct(&scene, &smash::Options::default())?;
+/// let comparison =
+///     smash::compare(&scene, &[("paper".to_string(), paper), ("refined".to_string(), refined)])?;
+/// println!("{}", comparison.to_json());
+/// # Ok::<(), smash::Error>(())
+/// ```
+pub fn compare(scene: &Scene, results: &[(String, Reconstruction)]) -> Result<Comparison> {
+    let mut warnings = Vec::new();
+    for (name, result) in results {
+        identity::check(scene, result).map_err(|error| error.in_file(name))?;
+        warnings.extend(identity::doubt(scene, name, result));
+    }
+    let noise = noise(scene, results);
+    let told = results
+        .iter()
+        .map(|(name, result)| {
+            residuals::of(scene, name, result, noise.as_ref()).map_err(|error| error.in_file(name))
+        })
+        .collect::<Result<_>>()?;
+    Ok(Comparison {
+        schema: COMPARISON_SCHEMA.to_string(),
+        scene: scene.name().to_string(),
+        noise,
+        results: told,
+        quantities: side_by_side::quantities(scene, results),
+        warnings,
+    })
+}
+
+/// One noise for all results, so that their residuals can be compared: the scene's, or else that of
+/// the first result that has one.
+fn noise(scene: &Scene, results: &[(String, Reconstruction)]) -> Option<ComparedNoise> {
+    let stated = scene.noise().map(|noise| ComparedNoise {
+        position: noise.position,
+        orientation: Some(noise.orientation),
+        from_result: None,
+    });
+    stated.or_else(|| {
+        results.iter().find_map(|(name, result)| {
+            result.noise.as_ref().map(|noise| ComparedNoise {
+                position: noise.position,
+                orientation: noise.orientation,
+                from_result: Some(name.clone()),
+            })
+        })
+    })
+}

@@ -1,0 +1,130 @@
+//! What the results say, quantity by quantity.
+
+use std::collections::HashMap;
+
+use super::{Difference, Entry, Quantity};
+use crate::reconstruct::Estimate;
+use crate::rigid_body::quaternion::from_wxyz;
+use crate::{Reconstruction, Scene};
+
+const NOT_DETERMINED: &str = "not determined";
+
+/// All quantities, with one entry for each of `results`, which are of `scene`.
+pub(super) fn quantities(scene: &Scene, results: &[(String, Reconstruction)]) -> Vec<Quantity> {
+    let columns = results.iter().map(|(_, result)| Column::of(scene, result).rows);
+    let mut quantities: Vec<Quantity> = Vec::new();
+    for rows in columns {
+        if quantities.is_empty() {
+            quantities = rows
+                .iter()
+                .map(|(quantity, unit, _)| Quantity {
+                    quantity: quantity.clone(),
+                    unit: unit.to_string(),
+                    entries: Vec::new(),
+                    differences: Vec::new(),
+                })
+                .collect();
+        }
+        // Results of one scene have the same bodies, hence the same rows.
+        for (quantity, (_, _, entry)) in quantities.iter_mut().zip(rows) {
+            if let Some(first) = quantity.entries.first() {
+                quantity.differences.push(difference(first, &entry));
+            }
+            quantity.entries.push(entry);
+        }
+    }
+    quantities
+}
+
+/// All that one result says: quantity, unit and entry.
+struct Column<'a> {
+    /// One standard deviation of each number, by its name in the result's `uncertainty`.
+    std: HashMap<&'a str, f64>,
+    rows: Vec<(String, &'static str, Entry)>,
+}
+
+impl<'a> Column<'a> {
+    fn of(scene: &Scene, result: &'a Reconstruction) -> Self {
+        let table = result.uncertainty.iter().flat_map(|u| u.quantities.iter().zip(&u.std));
+        let std = table.filter_map(|(name, std)| std.map(|std| (name.as_str(), std))).collect();
+        let mut column = Column { std, rows: Vec::new() };
+        if scene.bodies().len() == 2 {
+            column.number("mass_ratio", "", result.mass_ratio.as_ref());
+        }
+        column.number("restitution", "", Some(&result.restitution));
+        column.number("collision_time", "s", Some(&result.collision_time));
+        column.vector("contact_point", "m", result.contact_point, None);
+        column.vector("impulse", "N·s/kg", Some(result.impulse), None);
+        column.vector("normal", "", result.normal, None);
+        for body in &result.bodies {
+            let name = |quantity: &str| format!("{}.{quantity}", body.name);
+            let why = body.reason.as_deref();
+            column.vector(&name("position"), "m", Some(body.position), None);
+            column.vector(&name("orientation"), "rad", body.orientation, why);
+            column.vector(&name("velocity_before"), "m/s", Some(body.velocity_before), None);
+            column.vector(&name("velocity_after"), "m/s", Some(body.velocity_after), None);
+            let (before, after) = (body.angular_velocity_before, body.angular_velocity_after);
+            column.vector(&name("angular_velocity_before"), "rad/s", before, why);
+            column.vector(&name("angular_velocity_after"), "rad/s", after, why);
+        }
+        column
+    }
+
+    fn number(&mut self, quantity: &str, unit: &'static str, estimate: Option<&Estimate>) {
+        let value = estimate.and_then(|estimate| estimate.value);
+        let reason = || {
+            estimate.and_then(|estimate| estimate.reason.clone()).unwrap_or(NOT_DETERMINED.into())
+        };
+        let entry = Entry {
+            value: value.map(|value| vec![value]),
+            std: vec![estimate.and_then(|estimate| estimate.std)],
+            reason: value.is_none().then(reason),
+        };
+        self.rows.push((quantity.to_string(), unit, entry));
+    }
+
+    /// `value`: x y z, or w x y z.
+    fn vector<const N: usize>(
+        &mut self,
+        quantity: &str,
+        unit: &'static str,
+        value: Option<[f64; N]>,
+        why: Option<&str>,
+    ) {
+        let std = ["x", "y", "z"].map(|axis| {
+            let name = format!("{quantity}.{axis}");
+            self.std.get(name.as_str()).copied()
+        });
+        let reason = value.is_none().then(|| why.unwrap_or(NOT_DETERMINED).to_string());
+        let entry = Entry { value: value.map(Vec::from), std: std.into(), reason };
+        self.rows.push((quantity.to_string(), unit, entry));
+    }
+}
+
+fn difference(first: &Entry, later: &Entry) -> Difference {
+    let (Some(from), Some(to)) = (&first.value, &later.value) else {
+        return Difference { difference: None, size: None, in_sigma: None };
+    };
+    let difference: Vec<f64> = match (from.as_slice(), to.as_slice()) {
+        (&[w, x, y, z], &[s, a, b, c]) => {
+            let (from, to) = (from_wxyz([w, x, y, z]), from_wxyz([s, a, b, c]));
+            (to * from.inverse()).scaled_axis().iter().copied().collect()
+        }
+        _ => to.iter().zip(from).map(|(to, from)| to - from).collect(),
+    };
+    let in_sigmas = difference.iter().zip(first.std.iter().zip(&later.std)).filter_map(
+        |(difference, (one, other))| {
+            let std = match (one, other) {
+                (Some(one), Some(other)) => one.hypot(*other),
+                (Some(std), None) | (None, Some(std)) => *std,
+                (None, None) => return None,
+            };
+            Some(difference.abs() / std)
+        },
+    );
+    Difference {
+        size: Some(difference.iter().map(|number| number * number).sum::<f64>().sqrt()),
+        in_sigma: in_sigmas.max_by(f64::total_cmp),
+        difference: Some(difference),
+    }
+}

@@ -1,0 +1,109 @@
+//! Results from files.
+
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{Estimate, RESULT_SCHEMA, Reconstruction};
+use crate::files::{display_name, read_text};
+use crate::json::decode;
+use crate::rigid_body::quaternion::to_wxyz;
+use crate::scene::values::{check_range, unit_quaternion};
+use crate::{Error, Result};
+
+/// Far beyond any collision, and far enough from overflow that squares stay finite.
+const NUMBERS: RangeInclusive<f64> = -1e100..=1e100;
+/// Whatever is divided by it stays finite, too.
+const DEVIATIONS: RangeInclusive<f64> = 1e-100..=1e100;
+
+impl Reconstruction {
+    /// Reads and checks the result file `path` (`-` is standard input).
+    ///
+    /// Fields that this version doesn't know are passed over: a batch adds `provenance`, and a later
+    /// version may add others.
+    ///
+    /// # Errors
+    /// The file can't be read, isn't JSON, is no `smash.result/1`, or holds a value that no result
+    /// has; with place, value and mend.
+    pub fn read(path: impl AsRef<Path>) -> Result<Reconstruction> {
+        let path = path.as_ref();
+        Reconstruction::parse(&read_text(path)?, &display_name(path, "standard input"))
+    }
+
+    /// Reads and checks a result from `text`; `file_name` is only for messages.
+    ///
+    /// # Errors
+    /// As [`Reconstruction::read`].
+    pub fn parse(text: &str, file_name: &str) -> Result<Reconstruction> {
+        let result: Reconstruction = decode(text, file_name, RESULT_SCHEMA)?;
+        result.checked().map_err(|error| error.in_file(file_name))
+    }
+
+    /// The same with orientations of unit length, if all numbers can be reckoned with.
+    fn checked(mut self) -> Result<Reconstruction> {
+        let tree = serde_json::to_value(&self).expect("it was a JSON tree before");
+        check_numbers("", &tree)?;
+        let ratio = self.mass_ratio.iter().map(|ratio| ("mass_ratio", ratio));
+        let others = [("restitution", &self.restitution), ("collision_time", &self.collision_time)];
+        for (place, estimate) in ratio.chain(others) {
+            check_estimate(place, estimate)?;
+        }
+        if let Some(noise) = &self.noise {
+            check_deviation("noise.position", noise.position)?;
+            if let Some(orientation) = noise.orientation {
+                check_deviation("noise.orientation", orientation)?;
+            }
+        }
+        if let Some(uncertainty) = &self.uncertainty {
+            let (names, stds) = (uncertainty.quantities.len(), uncertainty.std.len());
+            if names != stds {
+                let problem = format!("holds {stds} deviations for {names} quantities");
+                return Err(Error::invalid("uncertainty.std", problem)
+                    .mend("give one for each quantity, null where there is none"));
+            }
+            for (index, std) in uncertainty.std.iter().enumerate() {
+                if let Some(std) = std {
+                    check_deviation(&format!("uncertainty.std[{index}]"), *std)?;
+                }
+            }
+        }
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            if let Some(wxyz) = &mut body.orientation {
+                let place = format!("bodies[{index}].orientation");
+                *wxyz = to_wxyz(&unit_quaternion(&place, *wxyz)?);
+            }
+        }
+        Ok(self)
+    }
+}
+
+fn check_estimate(place: &str, estimate: &Estimate) -> Result<()> {
+    match estimate.std {
+        Some(std) => check_deviation(&format!("{place}.std"), std),
+        None => Ok(()),
+    }
+}
+
+fn check_deviation(place: &str, std: f64) -> Result<()> {
+    check_range(place, std, &DEVIATIONS, "give one σ, above 0; null if it isn't known")
+}
+
+/// Checks that every number in `tree`, which stands at `place`, is of a reasonable size.
+fn check_numbers(place: &str, tree: &Value) -> Result<()> {
+    match tree {
+        Value::Number(number) => {
+            let value = number.as_f64().unwrap_or(f64::NAN);
+            check_range(place, value, &NUMBERS, "reconstruct the scene again")
+        }
+        Value::Array(items) => {
+            let mut items = items.iter().enumerate();
+            items.try_for_each(|(index, item)| check_numbers(&format!("{place}[{index}]"), item))
+        }
+        Value::Object(fields) => fields.iter().try_for_each(|(key, item)| {
+            let dot = if place.is_empty() { "" } else { "." };
+            check_numbers(&format!("{place}{dot}{key}"), item)
+        }),
+        Value::Null | Value::Bool(_) | Value::String(_) => Ok(()),
+    }
+}
