@@ -51,6 +51,11 @@ enum SegmentBy {
 }
 
 impl Method {
+    /// Whether wrong annotations hardly count already.
+    pub fn is_robust(&self) -> bool {
+        self.robust
+    }
+
     /// What the library is asked for; ends the program with a usage error if that contradicts
     /// itself.
     pub fn options(&self) -> Options {
@@ -61,9 +66,11 @@ impl Method {
     }
 
     fn paper(&self) -> Options {
-        if self.robust || self.intervals != IntervalsBy::Covariance {
+        let asks_refined =
+            self.robust || self.tilt_std.is_some() || self.intervals != IntervalsBy::Covariance;
+        if asks_refined {
             usage_error(
-                "the paper's method has no `--robust` and no `--intervals`: leave them out",
+                "the paper's method has no `--tilt-std`, `--robust` or `--intervals`: leave them out",
             );
         }
         let segment_by = match self.segment_by {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use smash::files::{Output, print_bytes, shell_word};
-use smash::reconstruct::{SegmentCriterion, reconstruct_with_progress};
+use smash::reconstruct::{Preset, SegmentCriterion, reconstruct_with_progress};
 use smash::{Reconstruction, Result, Scene};
 
 use super::method::Method;
@@ -33,15 +33,22 @@ impl Arguments {
         // Standard input can't be read twice.
         let is_file = self.scene != Path::new("-");
         let mut steps = Vec::new();
-        let has_partner = scene.bodies().len() == 2 || scene.plane().is_some();
         if is_file && result.segment_by == SegmentCriterion::Distance {
             steps.push(format!(
                 "smash reconstruct {path} --preset paper --segment-by cost    \
                  finds the right segment more often"
             ));
-        } else if is_file && has_partner {
+        }
+        if is_file && result.preset == Preset::Paper {
+            steps.push(format!("smash reconstruct {path}    more accurate, with error bars"));
+        }
+        if let Some(output) = self.output.as_ref().filter(|_| is_file) {
+            let output = shell_word(&output.to_string_lossy());
+            steps.push(format!("smash compare {path} {output}    where it misses the poses"));
+        }
+        if is_file && !self.method.is_robust() && result.outliers.len() * 100 > poses(scene) {
             steps.push(format!(
-                "smash reconstruct {path} --preset paper    the paper to the letter, to compare"
+                "smash reconstruct {path} --robust    lets wrong annotations hardly count"
             ));
         }
         if !result.flags.is_empty() || !result.warnings.is_empty() {
@@ -52,6 +59,10 @@ impl Arguments {
         }
         steps
     }
+}
+
+fn poses(scene: &Scene) -> usize {
+    scene.bodies().iter().map(|body| body.observations.len()).sum()
 }
 
 /// Reads, reconstructs, writes, tells.

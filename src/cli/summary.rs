@@ -3,7 +3,10 @@
 use std::fmt::Write;
 
 use smash::files::Output;
-use smash::reconstruct::{BodyResult, Estimate, Flag, Preset, Reconstruction, SegmentCriterion};
+use smash::reconstruct::{
+    Alternative, BodyResult, Estimate, Flag, NoiseReport, Outlier, Preset, Reconstruction,
+    SegmentCriterion,
+};
 
 /// The summary that `smash reconstruct` prints.
 pub fn of(result: &Reconstruction, next: &[String], output: Option<&Output>) -> String {
@@ -43,6 +46,11 @@ fn write_summary(
     )?;
     writeln!(out, "{}", table(&result.bodies))?;
     writeln!(out, "  error of the fit     {}", fit_error(result))?;
+    if let Some(noise) = &result.noise {
+        writeln!(out, "  noise                {}", noise_words(noise, result.fit.reduced_chi2))?;
+    }
+    write_alternatives(out, &result.alternatives)?;
+    write_outliers(out, &result.outliers)?;
     if result.flags.is_empty() {
         writeln!(out, "\nNo flags: the fit shows none of the known signs of failure.")?;
     }
@@ -77,11 +85,65 @@ fn advice(flags: &[Flag]) -> Vec<&'static str> {
 }
 
 fn number(estimate: &Estimate, unit: &str) -> String {
-    match (estimate.value, estimate.std) {
-        (Some(value), Some(std)) => format!("{value:.4}{unit} ± {std:.1e}{unit}"),
-        (Some(value), None) => format!("{value:.4}{unit}"),
-        (None, _) => format!("not determined: {}", estimate.reason.as_deref().unwrap_or("")),
+    let Some(value) = estimate.value else {
+        return format!("not determined: {}", estimate.reason.as_deref().unwrap_or(""));
+    };
+    let Some(std) = estimate.std else { return format!("{value:.4}{unit}") };
+    // Two digits of the deviation, and no more of the value.
+    let digits = (1.0 - std.log10().floor()).clamp(0.0, 9.0) as usize;
+    let mut text = format!("{value:.digits$} ± {std:.digits$}{unit}");
+    if let Some([low, high]) = estimate.interval_95 {
+        text += &format!("    95 %: {low:.digits$} to {high:.digits$}");
     }
+    text
+}
+
+fn noise_words(noise: &NoiseReport, reduced_chi2: Option<f64>) -> String {
+    let source = if noise.estimated { "estimated" } else { "stated" };
+    let mut text = format!("{:.2} mm a coordinate", 1e3 * noise.position);
+    if let Some(angle) = noise.orientation {
+        text += &format!(", {:.2}° an axis", angle.to_degrees());
+    }
+    text += &format!(", {source}");
+    if let Some(reduced) = reduced_chi2 {
+        text += &format!("; the residuals are {:.2} times as large", reduced.sqrt());
+    }
+    text
+}
+
+fn write_alternatives(out: &mut String, alternatives: &[Alternative]) -> std::fmt::Result {
+    if alternatives.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nNearly as good:")?;
+    for other in alternatives {
+        let [mass_ratio, restitution] = [other.mass_ratio, other.restitution]
+            .map(|value| value.map_or("none".to_string(), |value| format!("{value:.3}")));
+        writeln!(
+            out,
+            "  mass ratio {mass_ratio}, restitution {restitution}, at {:.4} s: χ² larger by {:.1}; \
+             differs in {}",
+            other.collision_time, other.delta_chi2, other.differs_in
+        )?;
+    }
+    Ok(())
+}
+
+/// The worst few of the poses that lie too far off.
+fn write_outliers(out: &mut String, outliers: &[Outlier]) -> std::fmt::Result {
+    const MOST: usize = 5;
+    if outliers.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nToo far off to be noise (one in a thousand may be):")?;
+    for outlier in outliers.iter().take(MOST) {
+        let Outlier { body, time, channel, deviations } = outlier;
+        writeln!(out, "  {channel} of {body} at {time:.4} s: {deviations:.1} σ")?;
+    }
+    if outliers.len() > MOST {
+        writeln!(out, "  and {} more", outliers.len() - MOST)?;
+    }
+    Ok(())
 }
 
 /// Velocities and spins before and after, one row each.

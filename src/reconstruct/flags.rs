@@ -23,6 +23,8 @@ pub enum Flag {
     MassRatioUnidentifiable,
     /// The model misses the poses by more than their noise, or visibly where none is stated.
     PoorFit,
+    /// Another solution explains the poses nearly as well.
+    SeveralOptima,
 }
 
 impl Flag {
@@ -43,6 +45,7 @@ impl Flag {
                  best a bound"
             }
             Flag::PoorFit => "the model misses the poses by more than annotations scatter",
+            Flag::SeveralOptima => "another solution explains the poses nearly as well",
         }
     }
 
@@ -59,8 +62,11 @@ impl Flag {
             }
             Flag::PoorFit => {
                 "check the order of the quaternion's components, `up`, `fps` and the units, then \
-                 single poses; fast spins seen in every frame mislead the paper's start (try every \
-                 5th to 10th pose), and its collision time is fixed midway between two poses"
+                 single poses: `smash compare` shows where the model misses; the paper's method is \
+                 also misled by fast spins seen in every frame"
+            }
+            Flag::SeveralOptima => {
+                "annotate poses nearer the collision, or nearer each other where a body spins fast"
             }
         }
     }
@@ -96,6 +102,8 @@ pub(super) struct Doubts {
     pub(super) push: Push,
     /// The noise of positions as far as flights show it.
     pub(super) scatter_m: Option<f64>,
+    /// Another solution is nearly as good.
+    pub(super) ambiguous: bool,
 }
 
 /// The flags that a reconstruction deserves.
@@ -108,6 +116,7 @@ pub(super) fn flags(scene: &Scene, fit: &Fit, doubts: &Doubts) -> Vec<Flag> {
         (!doubts.push.any, Flag::NoVisibleImpulse),
         (doubts.mass_ratio.is_some() && !doubts.push.all, Flag::MassRatioUnidentifiable),
         (is_poor(scene, fit, doubts.scatter_m), Flag::PoorFit),
+        (doubts.ambiguous, Flag::SeveralOptima),
     ]
     .into_iter()
     .filter_map(|(raised, flag)| raised.then_some(flag))

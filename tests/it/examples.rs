@@ -42,6 +42,6 @@ fn the_evaluation_prints_a_row_for_each_noise_and_method_and_draws() {
     let figure = folder.path().join("figure.svg");
     let arguments = ["--scenes", "1", "--intervals", "19", "--svg", figure.to_str().unwrap()];
     let text = run("evaluate", &arguments);
-    assert_eq!(text.lines().count(), 2 + 4 * 2, "{text}");
+    assert_eq!(text.lines().count(), 2 + 4 * 3, "{text}");
     assert!(std::fs::read_to_string(figure).unwrap().ends_with("</svg>\n"));
 }

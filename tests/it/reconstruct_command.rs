@@ -114,20 +114,39 @@ fn an_existing_output_is_replaced_whole() {
     result(&fs::read_to_string(path).unwrap());
 }
 
-/// The preset decides, unless the criterion is named.
+/// The paper's preset goes by distance unless told; the refined one by cost.
 #[test]
 fn presets_and_criteria_choose_the_segment() {
     let folder = folder_with(&two_boxes());
-    for (options, criterion) in [
-        (&[][..], SegmentCriterion::Cost),
-        (&["--preset", "paper"], SegmentCriterion::Distance),
-        (&["--preset", "paper", "--segment-by", "cost"], SegmentCriterion::Cost),
-        (&["--segment-by", "distance"], SegmentCriterion::Distance),
+    for (options, preset, criterion) in [
+        (&[][..], Preset::Refined, SegmentCriterion::Cost),
+        (&["--segment-by", "cost"], Preset::Refined, SegmentCriterion::Cost),
+        (&["--preset", "paper"], Preset::Paper, SegmentCriterion::Distance),
+        (&["--preset", "paper", "--segment-by", "cost"], Preset::Paper, SegmentCriterion::Cost),
     ] {
         let arguments = [&["scene.json", "--json"], options].concat();
         let result = result(&quiet_success(run(&folder, &arguments)));
-        assert_eq!(result.preset, Preset::Paper, "{options:?}");
+        assert_eq!(result.preset, preset, "{options:?}");
         assert_eq!(result.segment_by, criterion, "{options:?}");
+    }
+}
+
+/// What one method hasn't is wrong usage, with the mend.
+#[test]
+fn options_of_the_other_method_are_refused() {
+    let folder = folder_with(&two_boxes());
+    for (options, mend) in [
+        (&["--segment-by", "distance"][..], "--preset paper"),
+        (&["--preset", "paper", "--robust"], "leave them out"),
+        (&["--preset", "paper", "--intervals", "profile"], "leave them out"),
+        (&["--preset", "paper", "--tilt-std", "1"], "leave them out"),
+        (&["--tilt-std", "0"], "above 0"),
+        (&["--tilt-std", "NaN"], "above 0"),
+    ] {
+        let output = run(&folder, &[&["scene.json"], options].concat());
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(message.contains(mend), "{options:?}: {message}");
     }
 }
 
@@ -191,7 +210,10 @@ fn a_terminal_shows_progress() {
         return;
     }
     let folder = folder_with(&two_boxes());
-    let line = format!("{} reconstruct scene.json -o result.json", env!("CARGO_BIN_EXE_smash"));
+    let line = format!(
+        "{} reconstruct scene.json --preset paper --segment-by cost -o result.json",
+        env!("CARGO_BIN_EXE_smash")
+    );
     let output = Command::new("script")
         .args(["--quiet", "--return", "--command", &line, "/dev/null"])
         .env("TERM", "xterm")

@@ -51,6 +51,7 @@ pub(super) fn reconstruction(
         converged: solved.converged,
         push,
         scatter_m: position_scatter_m(scene, collision_time_s),
+        ambiguous: false,
     };
     Ok(Reconstruction {
         schema: RESULT_SCHEMA.to_string(),

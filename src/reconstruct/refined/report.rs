@@ -66,12 +66,14 @@ pub(super) fn reconstruction(
     let contact = collision.contact.filter(|_| push.any);
     let knows_point = contact_point_is_known(scene, &deviations)
         && (has_spin.contains(&true) || collision.restitution.is_ok());
+    let alternatives = alternatives(scene, solved, &has_spin);
     let doubts = Doubts {
         mass_ratio: collision.mass_ratio,
         restitution: clear_restitution(&restitution),
         converged: best.solution.converged,
         push,
         scatter_m: position_scatter_m(scene, collision.time_s),
+        ambiguous: !alternatives.is_empty(),
     };
     Reconstruction {
         schema: RESULT_SCHEMA.to_string(),
@@ -93,7 +95,7 @@ pub(super) fn reconstruction(
         effects: Vec::new(),
         noise: Some(noise_report(&has_spin, solved.noise)),
         uncertainty: noise_known.then(|| deviations.table(names(scene))),
-        alternatives: alternatives(scene, solved, &has_spin),
+        alternatives,
         outliers: outliers(scene, refined, &best.solution, solved.noise.value),
         intervals: Some(options.intervals),
         fit,
