@@ -15,6 +15,8 @@ mod quantities;
 mod report;
 mod significance;
 mod solve;
+#[cfg(test)]
+mod solver_tests;
 mod spins;
 mod start;
 mod uncertainty;
