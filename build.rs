@@ -18,10 +18,13 @@ fn main() {
         return;
     }
     let include = ceres_include_folder();
-    let mut build = cxx_build::bridges(["src/bridge/paper.rs", "src/bridge/refined.rs"]);
+    let mut build = cxx_build::bridges(
+        ["flight_reference", "paper", "refined"].map(|name| format!("src/bridge/{name}.rs")),
+    );
     build
         .file("cpp/bridge.cc")
         .file("cpp/flight_fits.cc")
+        .file("cpp/flight_reference.cc")
         .file("cpp/problem.cc")
         .file("cpp/refined_bridge.cc")
         .file("cpp/refined_problem.cc")

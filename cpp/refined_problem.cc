@@ -72,6 +72,13 @@ class RefinedFit {
     return solution;
   }
 
+  template <typename Visit>
+  void VisitFlights(const Visit& visit) {
+    for (const Flight& flight : flights_) {
+      visit(*flight.cost, FlightValues(flight.body, flight.is_after));
+    }
+  }
+
  private:
   struct BodyBlocks {
     Block motion, orientation;
@@ -429,6 +436,12 @@ FlightPose ToFlightPose(const RefinedPose& pose) {
 
 RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& problem) {
   return RefinedFit(scene, problem).Solve();
+}
+
+void VisitFlights(
+    const RefinedScene& scene, const RefinedProblem& problem,
+    const std::function<void(const FlightCost&, const std::vector<double*>&)>& visit) {
+  RefinedFit(scene, problem).VisitFlights(visit);
 }
 
 }  // namespace smash

@@ -1,6 +1,9 @@
 // The refined solver's chi-square as a ceres::Problem.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "functors/flight.h"
 #include "smash/src/bridge/refined.rs.h"
 
@@ -9,6 +12,11 @@ namespace smash {
 // Minimises from the start, all of which has passed CheckRefinedInput. Throws std::runtime_error
 // when no usable solution is found.
 RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& problem);
+
+// Calls `visit` with each flight of the problem and its blocks' numbers at the start.
+void VisitFlights(
+    const RefinedScene& scene, const RefinedProblem& problem,
+    const std::function<void(const FlightCost&, const std::vector<double*>&)>& visit);
 
 // The few numbers that stand for the impulse and the contact point, from where `unknowns` has them.
 ContactFrame ContactFrameOf(const RefinedScene& scene, const RefinedUnknowns& unknowns);

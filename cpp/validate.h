@@ -44,8 +44,11 @@ bool AllFinite(const std::array<double, N>& values) {
   return true;
 }
 
-inline bool IsUnit(const std::array<double, 4>& q) {
-  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+// False of what isn't finite, too.
+template <std::size_t N>
+bool IsUnit(const std::array<double, N>& values) {
+  double square = 0.0;
+  for (const double value : values) square += value * value;
   return std::abs(std::sqrt(square) - 1.0) < 1e-6;
 }
 

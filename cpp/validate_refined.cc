@@ -46,10 +46,12 @@ void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns) {
     }
   }
   if (!AllFinite(unknowns.tilt) || !AllFinite(unknowns.impulse) ||
-      !AllFinite(unknowns.contact_point) || !AllFinite(scene.plane_normal) ||
+      !AllFinite(unknowns.contact_point) ||
       !(std::abs(unknowns.log_mass_ratio) <= kLargestLogMassRatio)) {
     Refuse("a start that isn't finite");
   }
+  const bool has_plane = scene.plane_normal != std::array<double, 3>{};
+  if (has_plane && !IsUnit(scene.plane_normal)) Refuse("a plane's normal isn't of length 1");
 }
 
 }  // namespace
@@ -57,13 +59,16 @@ void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns) {
 void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& problem) {
   CheckUnknowns(scene, problem.start);
   if (!(scene.gravity_m_s2 >= 0 && std::isfinite(scene.gravity_m_s2)) ||
-      !IsPositive(scene.tilt_std_rad) || !AllFinite(scene.down) || !AllFinite(scene.across[0]) ||
-      !AllFinite(scene.across[1])) {
+      !IsPositive(scene.tilt_std_rad)) {
     Refuse("gravity or its tilt isn't finite and positive");
+  }
+  if (!IsUnit(scene.down) || !IsUnit(scene.across[0]) || !IsUnit(scene.across[1])) {
+    Refuse("an axis of gravity isn't of length 1");
   }
   const double time_s = problem.start.collision_time_s;
   if (!(problem.earliest_s <= time_s && time_s <= problem.latest_s &&
-        problem.earliest_s < problem.latest_s)) {
+        problem.earliest_s < problem.latest_s && std::isfinite(problem.earliest_s) &&
+        std::isfinite(problem.latest_s))) {
     Refuse("the collision time is out of its bounds");
   }
   if (!std::isfinite(problem.restitution.value) || !std::isfinite(problem.restitution.weight)) {
@@ -86,7 +91,8 @@ void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& proble
                         lever * ToVector3(problem.start.impulse).norm() / mass;
     for (const RefinedPose& pose : body.poses) {
       CheckPose(pose);
-      CheckTurning(body.inertia_per_mass, spin, pose.time_s - time_s);
+      CheckTurning(body.inertia_per_mass, spin, pose.time_s - problem.earliest_s);
+      CheckTurning(body.inertia_per_mass, spin, pose.time_s - problem.latest_s);
     }
   }
 }

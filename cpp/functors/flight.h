@@ -133,6 +133,9 @@ class FlightCost : public ceres::CostFunction {
   }
 
  private:
+  // Written for any scalar, on the same numbers.
+  friend class FlightReference;
+
   // The flight's start, and how it follows from the blocks.
   struct Launch {
     Vector3<double> position, velocity, spin;

@@ -16,6 +16,7 @@ mod import;
 mod installation;
 mod reconstruct;
 mod reconstruct_command;
+mod refined;
 mod scene_rules;
 mod scene_warnings;
 mod scenes;

@@ -23,7 +23,10 @@ impl Covariance {
     /// The inverse of `information`, or its pseudo-inverse where it has none.
     pub(super) fn new(information: &DMatrix<f64>) -> Self {
         let size = information.nrows();
-        let scale = information.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 });
+        // What no datum depends on at all weighs as much as what is known best: it must stand out in
+        // a gradient, however small the noise.
+        let best = 1.0 / information.diagonal().max().max(f64::MIN_POSITIVE).sqrt();
+        let scale = information.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { best });
         let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
         let (inverse, undetermined) = invert(scaled);
         let matrix = DMatrix::from_fn(size, size, |i, j| inverse[(i, j)] * scale[i] * scale[j]);
@@ -79,6 +82,15 @@ mod tests {
         let sum = covariance.std(&DVector::from_vec(vec![1.0, 1.0]));
         assert!((sum.unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(covariance.std(&DVector::from_vec(vec![1.0, 0.0])), None);
+    }
+
+    /// The same when the other unknown is known to a thousand-millionth, and the noise so small.
+    #[test]
+    fn what_nothing_depends_on_is_not_drowned_by_what_is_known_well() {
+        let covariance =
+            Covariance::new(&DMatrix::from_diagonal(&DVector::from_vec(vec![1e18, 0.0])));
+        assert!(covariance.std(&DVector::from_vec(vec![1.0, 0.0])).is_some());
+        assert_eq!(covariance.std(&DVector::from_vec(vec![1.0, 0.1])), None);
     }
 
     /// Units of very different size are no lack of information.

@@ -19,6 +19,8 @@ mod report;
 mod robust;
 mod significance;
 mod solve;
+#[cfg(test)]
+mod solver_tests;
 mod spins;
 mod start;
 mod uncertainty;

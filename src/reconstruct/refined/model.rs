@@ -45,7 +45,7 @@ pub(super) fn has_plane(scene: &RefinedScene) -> bool {
 }
 
 /// A unit vector across `v`.
-fn across(v: &Vector3<f64>) -> Vector3<f64> {
+pub(super) fn across(v: &Vector3<f64>) -> Vector3<f64> {
     v.cross(&Vector3::ith(v.iamin(), 1.0)).normalize()
 }
 

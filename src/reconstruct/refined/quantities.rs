@@ -26,10 +26,13 @@ pub(super) struct Collision {
 /// The collision that `unknowns` stand for. `has_spin`: of each body.
 pub(super) fn collision(scene: &Scene, unknowns: &RefinedUnknowns, has_spin: &[bool]) -> Collision {
     let impulse = Vector3::from(unknowns.impulse);
-    // Without any spin nothing tells the line of action: through the centres, as of balls.
+    // Without any spin nothing tells the line of action: between the centres, as of balls.
     let point = match has_spin.contains(&true) {
         true => Vector3::from(unknowns.contact_point),
-        false => Vector3::from(unknowns.bodies[0].position),
+        false => {
+            let centres = unknowns.bodies.iter().map(|motion| Vector3::from(motion.position));
+            centres.sum::<Vector3<f64>>() / unknowns.bodies.len() as f64
+        }
     };
     let mass_ratio = (scene.bodies().len() == 2).then(|| unknowns.log_mass_ratio.exp());
     let states: Vec<States> = scene

@@ -104,21 +104,26 @@ impl Attempt {
     }
 }
 
-/// Whether orientations are missed so far that a spin may be another: by more than their stated
-/// noise, or by more than an annotator would be off.
+/// Whether a spin may be another: poses are missed by more than their stated noise, or orientations
+/// by more than an annotator would be off.
 fn misses_turns(scene: &RefinedScene, attempt: &Attempt) -> bool {
     /// Three degrees.
     const VISIBLE_RAD: f64 = 0.05;
-    /// Residuals of twice the noise.
-    const POOR_REDUCED_CHI2: f64 = 4.0;
+    /// Noise alone exceeds so many deviations of its χ² in one scene of two hundred.
+    const IMPROBABLE: f64 = 3.0;
     let solution = &attempt.optima[0].solution;
-    let noise = attempt.noise;
     let (count, squares) = turns(scene, solution);
-    let limit = match noise.position_dof {
-        None => POOR_REDUCED_CHI2 * noise.value.orientation.powi(2),
-        Some(_) => VISIBLE_RAD * VISIBLE_RAD,
-    };
-    count > 0.0 && squares / count > limit
+    if count == 0.0 {
+        return false;
+    }
+    match attempt.noise.orientation_dof {
+        Some(spare) => squares > spare.max(1.0) * VISIBLE_RAD * VISIBLE_RAD,
+        None => {
+            let numbers = positions(solution).0 + count;
+            let spare = (numbers - solution.size as f64).max(1.0);
+            2.0 * solution.cost > spare + IMPROBABLE * (2.0 * spare).sqrt()
+        }
+    }
 }
 
 /// The starts of phase 3, best first.
