@@ -310,7 +310,8 @@ class RefinedFit {
     Copy(prior, solution.prior_information);
   }
 
-  // What is known of the tilt and the contact point beforehand.
+  // What is known of the tilt beforehand. The contact point's prior is no knowledge: what it alone
+  // determines is to be called undetermined.
   MatrixX Prior(double& chi2) const {
     MatrixX prior = MatrixX::Zero(size_, size_);
     if (tilt_.place >= 0) {
@@ -318,18 +319,6 @@ class RefinedFit {
       const Eigen::Map<const Eigen::Vector2d> tilt(tilt_.values.data());
       chi2 += weight * tilt.squaredNorm();
       prior.block<2, 2>(tilt_.place, tilt_.place).diagonal().setConstant(weight);
-    }
-    if (offset_.place < 0) return prior;
-    const Eigen::Map<const Eigen::Vector2d> offset(offset_.values.data());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Block& motion = bodies_[i].motion;
-      const Vector3<double> lever =
-          contact_.contact_origin - Vector3<double>(AsVector3(motion.values.data()));
-      MatrixX jacobian = MatrixX::Zero(2, size_);
-      jacobian.middleCols<3>(motion.place) = -contact_.contact_basis.transpose() / ReachOf(i);
-      jacobian.middleCols<2>(offset_.place).diagonal().setConstant(1.0 / ReachOf(i));
-      chi2 += ((contact_.contact_basis.transpose() * lever + offset) / ReachOf(i)).squaredNorm();
-      Accumulate(jacobian, prior);
     }
     return prior;
   }

@@ -105,7 +105,7 @@ pub(crate) mod ffi {
     #[derive(Debug, Clone)]
     struct RefinedSolution {
         unknowns: RefinedUnknowns,
-        /// ½ χ², priors included, pins not.
+        /// ½ χ² with the tilt's prior, without that of the contact point and without pins.
         cost: f64,
         cost_initial: f64,
         iterations: u32,

@@ -465,7 +465,8 @@ fn the_next_steps_are_words_of_a_shell() {
     let folder = folder_of_inputs();
     let told = smash(folder.path(), &["simulate", "spec.json", "-o", "it's new.json"]).stdout;
     assert!(told.contains(r"smash reconstruct 'it'\''s new.json'"), "{told}");
-    let told = smash(folder.path(), &["reconstruct", "it's new.json"]).stdout;
+    let by_paper = ["reconstruct", "it's new.json", "--preset", "paper"];
+    let told = smash(folder.path(), &by_paper).stdout;
     assert!(told.contains(r"smash reconstruct 'it'\''s new.json' --preset"), "{told}");
     // Standard input is gone when the next command runs.
     let output = Command::new(env!("CARGO_BIN_EXE_smash"))

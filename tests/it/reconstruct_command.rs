@@ -46,7 +46,7 @@ fn the_main_job_writes_the_result_and_tells_it_in_words() {
     let text = fs::read_to_string(folder.path().join("result.json")).unwrap();
     let result = result(&text);
     assert_eq!(result.schema, "smash.result/1");
-    let mass_ratio = format!("{:.4}", result.mass_ratio.unwrap().value.unwrap());
+    let mass_ratio = format!("{:.2}", result.mass_ratio.unwrap().value.unwrap());
     let speed = format!("{:.3}", result.bodies[0].velocity_before[0]);
     let millimetres = format!("{:.2} mm", 1e3 * result.fit.position_rmse);
     for expected in [
@@ -64,7 +64,7 @@ fn the_main_job_writes_the_result_and_tells_it_in_words() {
         "°",
         "\nNext\n",
         "result.json",
-        "--preset paper",
+        "smash compare scene.json result.json",
     ] {
         assert!(words.contains(expected), "no {expected:?} in\n{words}");
     }

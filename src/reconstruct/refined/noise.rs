@@ -1,7 +1,7 @@
 //! The noise of each channel, from what the fit leaves over.
 
 use super::model::set_noise;
-use super::optimum::{Optimum, information, warm};
+use super::optimum::{Optimum, information, sort, warm};
 use super::parabolas::Parabolas;
 use crate::Result;
 use crate::bridge::refined::ffi::{RefinedScene, RefinedSolution};
@@ -46,17 +46,24 @@ pub(super) fn settle_noise(
     guess: Noise,
 ) -> Result<KnownNoise> {
     let mut noise = KnownNoise::stated(guess);
+    // Only the best is refitted on the way: the others follow once.
+    let mut best = optima[..1].to_vec();
     for _ in 0..MOST_NOISE_ROUNDS {
-        let next = estimated_noise(scene, &optima[0], noise.value);
+        let next = estimated_noise(scene, &best[0], noise.value);
         let settled = close(next.value.position, noise.value.position)
             && close(next.value.orientation, noise.value.orientation);
         noise = next;
         set_noise(scene, noise.value);
-        *optima = warm(scene, optima)?;
+        best = warm(scene, &best)?;
         if settled {
             break;
         }
     }
+    if optima.len() > 1 {
+        best.extend(warm(scene, &optima[1..]).unwrap_or_default());
+        sort(&mut best);
+    }
+    *optima = best;
     Ok(noise)
 }
 

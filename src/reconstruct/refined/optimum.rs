@@ -66,7 +66,7 @@ fn all_optima<'a>(
     }
 }
 
-fn sort(optima: &mut [Optimum]) {
+pub(super) fn sort(optima: &mut [Optimum]) {
     optima.sort_by(|a, b| a.solution.cost.total_cmp(&b.solution.cost));
 }
 

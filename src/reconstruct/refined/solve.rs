@@ -4,11 +4,11 @@
 use std::time::Instant;
 
 use super::model::set_noise;
-use super::noise::{KnownNoise, first_guess, settle_noise, turns};
+use super::noise::{KnownNoise, first_guess, positions, settle_noise, turns};
 use super::optimum::{Optimum, optimised};
 use super::parabolas::{Parabolas, Segment};
 use super::robust::settle_robustly;
-use super::spins::Search;
+use super::spins::{Search, may_turn_otherwise};
 use super::start::{Candidate, candidates};
 use crate::Result;
 use crate::bridge::refined::ffi::RefinedScene;
@@ -113,7 +113,7 @@ fn misses_turns(scene: &RefinedScene, attempt: &Attempt) -> bool {
     const IMPROBABLE: f64 = 3.0;
     let solution = &attempt.optima[0].solution;
     let (count, squares) = turns(scene, solution);
-    if count == 0.0 {
+    if count == 0.0 || !scene.bodies.iter().any(may_turn_otherwise) {
         return false;
     }
     match attempt.noise.orientation_dof {

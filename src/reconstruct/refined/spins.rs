@@ -54,6 +54,21 @@ pub(super) enum Search {
     AllAxes,
 }
 
+/// Whether poses of the body that follow each other leave open how it turned between them: by a
+/// large part of a turn, or with time enough for a whole one more or less.
+pub(super) fn may_turn_otherwise(body: &RefinedBody) -> bool {
+    /// In less a tumbling body does nothing that its mean spin doesn't tell.
+    const LARGE_RAD: f64 = 0.7;
+    let oriented: Vec<&RefinedPose> =
+        body.poses.iter().filter(|pose| pose.has_orientation).collect();
+    body.has_spin
+        && oriented.windows(2).any(|pair| {
+            let angle = from_wxyz(pair[0].orientation).angle_to(&from_wxyz(pair[1].orientation));
+            let most_rad = FASTEST_ALIAS_RAD_S * (pair[1].time_s - pair[0].time_s);
+            angle > LARGE_RAD || most_rad > std::f64::consts::TAU - angle
+        })
+}
+
 /// The rotations before and after the collision that the body's own poses allow, best first.
 /// `before` and `after` hold its oriented poses outwards from the collision.
 pub(super) fn spins(

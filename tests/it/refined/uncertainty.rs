@@ -111,7 +111,8 @@ fn deviations_go_with_the_noise() {
             Noise { position: share * NOISE.position, orientation: share * NOISE.orientation };
         let tilt_std_rad = share * RefinedOptions::default().tilt_std_rad;
         let file = SceneFile { noise: Some(noise), ..scene().0.clone() };
-        let options = Options::Refined(RefinedOptions { tilt_std_rad });
+        let options =
+            Options::Refined(RefinedOptions { tilt_std_rad, ..RefinedOptions::default() });
         reconstruct(&Scene::from_file(file).unwrap(), &options).unwrap()
     };
     let (whole, half) = (said(1.0).uncertainty.unwrap(), said(0.5).uncertainty.unwrap());
