@@ -25,7 +25,7 @@ fn main() {
         .file("cpp/bridge.cc")
         .file("cpp/flight_fits.cc")
         .file("cpp/flight_reference.cc")
-        .file("cpp/problem.cc")
+        .file("cpp/paper_problem.cc")
         .file("cpp/refined_bridge.cc")
         .file("cpp/refined_problem.cc")
         .file("cpp/validate_paper.cc")

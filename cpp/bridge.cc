@@ -8,7 +8,7 @@
 
 #include "dynamics/parabola.h"
 #include "dynamics/rotation.h"
-#include "problem.h"
+#include "paper_problem.h"
 #include "validate.h"
 
 namespace smash {

@@ -7,9 +7,11 @@
 //! ```sh
 //! cargo run --release --example evaluate                      # 12 scenes of its own
 //! cargo run --release --example evaluate -- --folder bullet   # scene_NN.json with truth_NN.json
+//! cargo run --release --example evaluate -- --coverage 1000 --intervals 9   # the error bars
 //! ```
 
 mod cases;
+mod coverage;
 mod figure;
 mod score;
 
@@ -45,6 +47,9 @@ struct Arguments {
     /// Only these methods: paper; paper, by cost; refined
     #[arg(long = "method", value_name = "METHOD")]
     methods: Vec<String>,
+    /// Instead, test the error bars on so many scenes
+    #[arg(long, value_name = "SCENES")]
+    coverage: Option<usize>,
     /// Where to draw the figure
     #[arg(long)]
     svg: Option<PathBuf>,
@@ -53,6 +58,9 @@ struct Arguments {
 fn main() -> smash::Result<()> {
     let arguments = Arguments::parse();
     smash::silence_solver_log();
+    if let Some(count) = arguments.coverage {
+        return coverage::print(count, &arguments.intervals);
+    }
     let cases = match &arguments.folder {
         Some(folder) => cases::from_folder(folder, arguments.scenes)?,
         None => cases::simulated(arguments.scenes)?,

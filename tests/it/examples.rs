@@ -45,3 +45,15 @@ fn the_evaluation_prints_a_row_for_each_noise_and_method_and_draws() {
     assert_eq!(text.lines().count(), 2 + 4 * 3, "{text}");
     assert!(std::fs::read_to_string(figure).unwrap().ends_with("</svg>\n"));
 }
+
+/// With 20 scenes at 95 %, fewer than 14 covered is one in a hundred thousand.
+#[test]
+fn the_evaluation_tests_the_error_bars() {
+    let text = run("evaluate", &["--coverage", "20", "--intervals", "9"]);
+    let covered: Vec<f64> = text
+        .lines()
+        .filter_map(|line| line.strip_suffix(" % |")?.rsplit("| ").next()?.parse().ok())
+        .collect();
+    assert_eq!(covered.len(), 6, "{text}");
+    assert!(covered.iter().all(|percent| *percent >= 70.0), "{text}");
+}

@@ -1,4 +1,4 @@
-#include "problem.h"
+#include "paper_problem.h"
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
