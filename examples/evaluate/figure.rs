@@ -17,7 +17,7 @@ type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 const COLOURS: [RGBColor; 4] =
     [RGBColor(0, 114, 178), RGBColor(0, 158, 115), RGBColor(230, 159, 0), RGBColor(213, 94, 0)];
 /// Errors below are drawn here: they don't differ for a user.
-const SMALLEST: f64 = 1e-5;
+const SMALLEST: f64 = 1e-10;
 const LARGEST: f64 = 10.0;
 
 /// Draws the figure into `file`, as SVG.
@@ -28,7 +28,7 @@ pub fn draw(scores: &[Score], file: &Path) -> Result<()> {
 }
 
 fn draw_panels(scores: &[Score], svg: &mut String) -> DrawResult {
-    let sheet = SVGBackend::with_string(svg, (1000, 720)).into_drawing_area();
+    let sheet = SVGBackend::with_string(svg, (1200, 720)).into_drawing_area();
     sheet.fill(&WHITE)?;
     let mut methods: Vec<&str> = scores.iter().map(|score| score.method).collect();
     methods.dedup();
@@ -38,10 +38,11 @@ fn draw_panels(scores: &[Score], svg: &mut String) -> DrawResult {
     for (column, method) in methods.iter().enumerate() {
         let of_method: Vec<&Score> = scores.iter().filter(|s| s.method == *method).collect();
         let mass_ratio = format!("{method}: relative error of the mass ratio");
-        draw_panel(&panels[column], &of_method, &mass_ratio, |o| o.mass_ratio_error)?;
+        let has_legend = column == 0;
+        draw_panel(&panels[column], &of_method, &mass_ratio, has_legend, |o| o.mass_ratio_error)?;
         let restitution = format!("{method}: error of the restitution");
         let below = &panels[methods.len() + column];
-        draw_panel(below, &of_method, &restitution, |o| o.restitution_error)?;
+        draw_panel(below, &of_method, &restitution, has_legend, |o| o.restitution_error)?;
     }
     sheet.present()?;
     Ok(())
@@ -51,6 +52,7 @@ fn draw_panel(
     panel: &Panel,
     scores: &[&Score],
     title: &str,
+    has_legend: bool,
     error: fn(&Outcome) -> f64,
 ) -> DrawResult {
     let mut chart = ChartBuilder::on(panel)
@@ -91,9 +93,12 @@ fn draw_panel(
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(3)));
         chart.draw_series(medians.iter().map(|&dot| Circle::new(dot, 5, colour.filled())))?;
     }
+    if !has_legend {
+        return Ok(());
+    }
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::LowerRight)
+        .position(SeriesLabelPosition::LowerLeft)
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.3))
         .draw()?;
