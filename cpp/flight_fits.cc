@@ -141,7 +141,7 @@ SpinFit FitSpin(const SpinFlight& flight) {
   Quaternion<double> orientation = poses[0].world_from_body;
   Vector6 unknowns;
   unknowns << 0, 0, 0, ToVector3(flight.spin);
-  // A start need not be exact: with steps four times as long the error is 256 times 1e-7 rad.
+  // A start need not be exact: with steps four times as long the error is 256 times 5e-7 rad.
   const double step_s = 4.0 * LongestStep(inertia, orientation, unknowns.tail<3>());
   const double rough_step_s = 2.0 * step_s;
   for (std::size_t count = std::min<std::size_t>(2, poses.size());;) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "functors/flight.h"
+#include "refined_blocks.h"
 #include "smash/src/bridge/refined.rs.h"
 
 namespace smash {
@@ -14,15 +14,11 @@ namespace smash {
 RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& problem);
 
 // Calls `visit` with each flight of the problem and its blocks' numbers at the start.
-void VisitFlights(
-    const RefinedScene& scene, const RefinedProblem& problem,
-    const std::function<void(const FlightCost&, const std::vector<double*>&)>& visit);
+void VisitFlights(const RefinedScene& scene, const RefinedProblem& problem,
+                  const std::function<void(const FlightCost&, const std::vector<double*>&)>& visit);
 
-// The few numbers that stand for the impulse and the contact point, from where `unknowns` has them.
-ContactFrame ContactFrameOf(const RefinedScene& scene, const RefinedUnknowns& unknowns);
-
-// The longest step that keeps the integrator's error far under any annotation's: 1e-7 rad over ten
-// rad.
+// The longest step that keeps the integrator's error far under any annotation's: 5e-7 rad over
+// ten rad.
 double LongestStep(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
                    const Vector3<double>& l);
 

@@ -60,7 +60,7 @@ void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& proble
   CheckUnknowns(scene, problem.start);
   if (!(scene.gravity_m_s2 >= 0 && std::isfinite(scene.gravity_m_s2)) ||
       !IsPositive(scene.tilt_std_rad)) {
-    Refuse("gravity or its tilt isn't finite and positive");
+    Refuse("gravity is negative or not finite, or its tilt's deviation isn't positive");
   }
   if (!IsUnit(scene.down) || !IsUnit(scene.across[0]) || !IsUnit(scene.across[1])) {
     Refuse("an axis of gravity isn't of length 1");

@@ -5,6 +5,8 @@
 
 #include <ceres/cost_function.h>
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "dynamics/free_rotation.h"
@@ -21,7 +23,7 @@ struct FlightPose {
   bool has_orientation;
 };
 
-// Gravity, |g| along a direction that may be tilted: -up + tilt[0] e0 + tilt[1] e1, made unit.
+// Gravity, |g| along a direction that may be tilted: down + tilt[0] e0 + tilt[1] e1, made unit.
 struct TiltedGravity {
   double strength_m_s2;
   Vector3<double> down;
@@ -88,7 +90,7 @@ class FlightCost : public ceres::CostFunction {
     if (!body_.is_reference) mutable_parameter_block_sizes()->push_back(1);
   }
 
-  // Whether row `row` of a pose is an orientation's.
+  // How many residuals a pose has.
   int Rows(const FlightPose& pose) const { return SeesSpin(pose) ? 6 : 3; }
   const std::vector<FlightPose>& poses() const { return poses_; }
 

@@ -84,6 +84,9 @@ impl Method {
         if matches!(self.segment_by, Some(SegmentBy::Distance)) {
             usage_error("`--segment-by distance` is the paper's criterion: add `--preset paper`");
         }
+        if self.robust && self.intervals == IntervalsBy::Profile {
+            usage_error("`--intervals profile` is of least squares: leave it or `--robust` out");
+        }
         let default = RefinedOptions::default();
         Options::Refined(RefinedOptions {
             tilt_std_rad: self.tilt_std.map_or(default.tilt_std_rad, f64::to_radians),
@@ -98,8 +101,8 @@ impl Method {
 
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value <= 90.0 => Ok(value),
-        _ => Err("give an angle above 0, up to 90".to_string()),
+        Ok(value) if (1e-6..=90.0).contains(&value) => Ok(value),
+        _ => Err("give an angle above 0, from 1e-6 to 90".to_string()),
     }
 }
 

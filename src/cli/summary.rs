@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use smash::files::Output;
 use smash::reconstruct::{
-    Alternative, BodyResult, Estimate, Flag, NoiseReport, Outlier, Preset, Reconstruction,
+    Alternative, BodyResult, Estimate, NoiseReport, Outlier, Preset, Reconstruction,
     SegmentCriterion,
 };
 
@@ -24,15 +24,23 @@ fn write_summary(
 ) -> std::fmt::Result {
     let name = if result.scene.is_empty() { "the collision" } else { &result.scene };
     writeln!(out, "{name} ({})\n", method(result))?;
-    for flag in &result.flags {
+    for (index, flag) in result.flags.iter().enumerate() {
         writeln!(out, "flag: {}", flag.meaning())?;
-    }
-    for advice in advice(&result.flags) {
-        writeln!(out, "  hint: {advice}")?;
+        // The same advice for several in a row stands once, below the last.
+        if result.flags.get(index + 1).is_none_or(|next| next.advice() != flag.advice()) {
+            writeln!(out, "  hint: {}", flag.advice())?;
+        }
     }
     if !result.flags.is_empty() {
         writeln!(out)?;
     }
+    // The paper's method has no deviations at all: no need to say so three times.
+    let number = |estimate: &Estimate, unit: &str| match result.preset {
+        Preset::Paper if estimate.value.is_some() => {
+            number(&Estimate { reason: None, ..estimate.clone() }, unit)
+        }
+        _ => number(estimate, unit),
+    };
     match &result.mass_ratio {
         Some(estimate) => writeln!(out, "  mass ratio m_b/m_a   {}", number(estimate, ""))?,
         None => writeln!(out, "  mass ratio m_b/m_a   none: a single body")?,
@@ -77,25 +85,19 @@ fn method(result: &Reconstruction) -> &'static str {
     }
 }
 
-/// What to do about the flags, each advice once.
-fn advice(flags: &[Flag]) -> Vec<&'static str> {
-    let mut advice: Vec<&str> = flags.iter().map(|flag| flag.advice()).collect();
-    advice.dedup();
-    advice
-}
-
 fn number(estimate: &Estimate, unit: &str) -> String {
     let Some(value) = estimate.value else {
         return format!("not determined: {}", estimate.reason.as_deref().unwrap_or(""));
     };
-    let Some(std) = estimate.std else { return format!("{value:.4}{unit}") };
+    let reason = estimate.reason.as_ref().map_or(String::new(), |reason| format!("    ({reason})"));
+    let Some(std) = estimate.std else { return format!("{value:.4}{unit}{reason}") };
     // Two digits of the deviation, and no more of the value.
     let digits = (1.0 - std.log10().floor()).clamp(0.0, 9.0) as usize;
     let mut text = format!("{value:.digits$} ± {std:.digits$}{unit}");
     if let Some([low, high]) = estimate.interval_95 {
         text += &format!("    95 %: {low:.digits$} to {high:.digits$}");
     }
-    text
+    text + &reason
 }
 
 fn noise_words(noise: &NoiseReport, reduced_chi2: Option<f64>) -> String {

@@ -11,7 +11,7 @@ use crate::Scene;
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Flag {
-    /// The mass ratio ended at a bound, 10⁻⁵ or 10 (the paper's sign of failure).
+    /// The mass ratio ended at a bound of the paper's method, 10⁻⁵ or 10 (its sign of failure).
     MassRatioAtBound,
     /// The restitution is not within 0 to 1 (the paper's other sign of failure).
     RestitutionOutOfRange,
@@ -54,7 +54,7 @@ impl Flag {
         match self {
             Flag::MassRatioAtBound | Flag::RestitutionOutOfRange => {
                 "check the poses nearest the collision, their times and the sizes; more poses on \
-                 each side help most; try the other --segment-by"
+                 each side help most; with `--preset paper` try the other `--segment-by`"
             }
             Flag::NotConverged => "check for poses far off their neighbours",
             Flag::NoVisibleImpulse | Flag::MassRatioUnidentifiable => {
@@ -97,6 +97,8 @@ pub(super) struct Push {
 pub(super) struct Doubts {
     /// `None` with a single dynamic body.
     pub(super) mass_ratio: Option<f64>,
+    /// Whether the method bounds the mass ratio as the paper does.
+    pub(super) is_bounded: bool,
     pub(super) restitution: Option<f64>,
     pub(super) converged: bool,
     pub(super) push: Push,
@@ -110,7 +112,7 @@ pub(super) struct Doubts {
 pub(super) fn flags(scene: &Scene, fit: &Fit, doubts: &Doubts) -> Vec<Flag> {
     let out_of_range = |c: f64| !(0.0..=1.0).contains(&c);
     [
-        (doubts.mass_ratio.is_some_and(at_bound), Flag::MassRatioAtBound),
+        (doubts.is_bounded && doubts.mass_ratio.is_some_and(at_bound), Flag::MassRatioAtBound),
         (doubts.restitution.is_some_and(out_of_range), Flag::RestitutionOutOfRange),
         (!doubts.converged, Flag::NotConverged),
         (!doubts.push.any, Flag::NoVisibleImpulse),

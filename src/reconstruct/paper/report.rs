@@ -47,6 +47,7 @@ pub(super) fn reconstruction(
     let collision_time_s = internal.seconds(solved.collision_frames);
     let doubts = Doubts {
         mass_ratio: (states.len() == 2).then_some(solved.unknowns.mass_ratio),
+        is_bounded: true,
         restitution: restitution.value,
         converged: solved.converged,
         push,

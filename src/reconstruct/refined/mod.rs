@@ -7,6 +7,7 @@
 //!          spins (± turns)      choice of turns     the best starts numbers
 //! ```
 
+mod alternatives;
 mod covariance;
 mod layout;
 mod model;
@@ -26,15 +27,24 @@ mod start;
 mod uncertainty;
 
 use self::noise::LEAST_NOISE;
-use super::{Reconstruction, RefinedOptions};
+use super::{Intervals, Loss, Reconstruction, RefinedOptions};
 use crate::scene::Noise;
 use crate::{Error, ErrorKind, Result, Scene};
 
+/// Less is rounding; more is no direction.
+const LEAST_TILT_RAD: f64 = 1e-9;
+const LARGEST_TILT_RAD: f64 = std::f64::consts::FRAC_PI_2;
+
 /// Reconstructs the collision in `scene` by the refined solver.
 pub(super) fn reconstruct(scene: &Scene, options: &RefinedOptions) -> Result<Reconstruction> {
-    if !(options.tilt_std_rad > 0.0 && options.tilt_std_rad.is_finite()) {
+    if !(LEAST_TILT_RAD..=LARGEST_TILT_RAD).contains(&options.tilt_std_rad) {
         let problem = format!("the tilt's deviation is {} rad", options.tilt_std_rad);
-        return Err(Error::new(ErrorKind::Invalid, problem).mend("give an angle above 0"));
+        return Err(Error::new(ErrorKind::Invalid, problem)
+            .mend("give an angle from 1e-9 rad to a quarter turn"));
+    }
+    if options.loss == Loss::Robust && options.intervals == Intervals::Profile {
+        let problem = "profile intervals are of least squares, not of the robust loss";
+        return Err(Error::new(ErrorKind::Invalid, problem).mend("leave one of the two out"));
     }
     let stated = scene.noise().map(|noise| Noise {
         position: noise.position.max(LEAST_NOISE.position),

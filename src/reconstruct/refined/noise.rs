@@ -1,7 +1,7 @@
 //! The noise of each channel, from what the fit leaves over.
 
 use super::model::set_noise;
-use super::optimum::{Optimum, information, sort, warm};
+use super::optimum::{Optimum, sort, warm};
 use super::parabolas::Parabolas;
 use crate::Result;
 use crate::bridge::refined::ffi::{RefinedScene, RefinedSolution};
@@ -9,6 +9,8 @@ use crate::scene::Noise;
 
 /// Rounds of estimating the noise; it settles to a per mille in three or four.
 const MOST_NOISE_ROUNDS: usize = 8;
+/// From fewer spare numbers the estimate would be off by a factor of two as often as not.
+const LEAST_SPARE: f64 = 1.5;
 /// Below, the noise is that of rounding and of the integrator.
 pub(super) const LEAST_NOISE: Noise = Noise { position: 1e-9, orientation: 1e-9 };
 
@@ -19,6 +21,11 @@ pub(super) struct KnownNoise {
     /// Spare numbers of each channel that it is estimated from; `None` where it is stated.
     pub(super) position_dof: Option<f64>,
     pub(super) orientation_dof: Option<f64>,
+}
+
+/// Whether a channel's noise is stated, or estimated from enough spare numbers.
+pub(super) fn is_known(dof: Option<f64>) -> bool {
+    dof.is_none_or(|dof| dof > LEAST_SPARE)
 }
 
 impl KnownNoise {
@@ -74,10 +81,7 @@ fn close(a: f64, b: f64) -> bool {
 
 fn estimated_noise(scene: &RefinedScene, optimum: &Optimum, noise: Noise) -> KnownNoise {
     let solution = &optimum.solution;
-    let used = |channel: &[f64]| {
-        let information = information(solution, channel);
-        information.component_mul(&optimum.covariance.matrix).sum()
-    };
+    let used = |channel: &[f64]| optimum.used(channel);
     let (position, position_dof) = channel_noise(
         positions(solution),
         used(&solution.position_information),
@@ -119,8 +123,6 @@ fn channel_noise(
     before: f64,
     least: f64,
 ) -> (f64, Option<f64>) {
-    /// From fewer the estimate would be off by a factor of two as often as not.
-    const LEAST_SPARE: f64 = 1.5;
     let spare = count - used;
     match spare > LEAST_SPARE {
         true => ((squares / spare).sqrt().max(least), Some(spare)),

@@ -32,6 +32,13 @@ pub(super) fn free_problem(unknowns: &ffi::RefinedUnknowns, gap: &Gap) -> Refine
     }
 }
 
+impl Optimum {
+    /// How many of a channel's numbers the fit used up: the trace of its hat matrix.
+    pub(super) fn used(&self, channel: &[f64]) -> f64 {
+        information(&self.solution, channel).component_mul(&self.covariance.matrix).sum()
+    }
+}
+
 pub(super) fn information(solution: &RefinedSolution, channel: &[f64]) -> DMatrix<f64> {
     DMatrix::from_row_slice(solution.size, solution.size, channel)
 }
@@ -62,7 +69,9 @@ fn all_optima<'a>(
     match (optima.is_empty(), failure) {
         (false, _) => Ok(optima),
         (true, Some(error)) => Err(error),
-        (true, None) => Err(Error::new(ErrorKind::Solve, "there is no segment to search")),
+        (true, None) => Err(Error::new(ErrorKind::Solve, "no start explains the poses")
+            .at("bodies")
+            .mend("check the poses for single ones far off, and the stated noise")),
     }
 }
 

@@ -72,7 +72,7 @@ impl Profile<'_> {
                 return None;
             }
         }
-        Some(value + step * std)
+        None
     }
 
     /// √Δχ² with the quantity moved by `shift` and all else refitted.

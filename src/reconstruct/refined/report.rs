@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 
+use super::alternatives::alternatives;
 use super::layout::Layout;
-use super::noise::{KnownNoise, positions, turns};
-use super::optimum::{Optimum, information};
+use super::noise::{KnownNoise, is_known, positions, turns};
+use super::optimum::Optimum;
 use super::profile::{Held, Profile};
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
 use super::robust::outliers;
@@ -16,19 +17,17 @@ use crate::bridge::refined::ffi::RefinedScene;
 use crate::reconstruct::collision::{NO_IMPULSE, body_result};
 use crate::reconstruct::flags::{Doubts, flags};
 use crate::reconstruct::result::{
-    Alternative, BodyResult, Estimate, Fit, NoiseReport, Preset, RESULT_SCHEMA, Reconstruction,
+    BodyResult, Estimate, Fit, NoiseReport, Outlier, Preset, RESULT_SCHEMA, Reconstruction,
 };
 use crate::reconstruct::scatter::position_scatter_m;
-use crate::reconstruct::{Intervals, RefinedOptions, SegmentCriterion};
+use crate::reconstruct::{Intervals, Loss, RefinedOptions, SegmentCriterion};
 
 const NO_ORIENTATION: &str = "no orientation was fitted";
 const NO_DATA: &str = "the poses don't determine it";
 const ONLY_A_BOUND: &str =
     "a body's jump in velocity doesn't stand out of the noise: the mass ratio is at best a bound";
-const NO_INTERVAL: &str = "the likelihood never falls far enough to end an interval";
+const NO_INTERVAL: &str = "no end of the interval was found: the likelihood falls too slowly";
 const NO_NOISE: &str = "too few poses to tell the noise, and the scene states none";
-/// Optima whose χ² is larger by more are improbable: three standard deviations.
-const NEARLY_AS_GOOD: f64 = 9.0;
 
 /// The reconstruction that `solved` stands for.
 pub(super) fn reconstruction(
@@ -44,12 +43,10 @@ pub(super) fn reconstruction(
     let derivatives = derivatives(scene, &layout, best, &has_spin);
     let deviations = Deviations::new(best, solved.noise, derivatives);
     let push = push(&collision, &deviations, solved.noise, solved.segments);
-    let noise_known = noise_known(refined, solved.noise);
     let gaps = scene.gaps();
     let profile = Profile { scene: refined, gaps: &gaps, layout: &layout, optimum: best };
     let estimator = Estimator {
         deviations: &deviations,
-        noise_known,
         profile: (options.intervals == Intervals::Profile).then_some(&profile),
     };
     let fit = fit(scene, refined, solved);
@@ -67,8 +64,10 @@ pub(super) fn reconstruction(
     let knows_point = contact_point_is_known(scene, &deviations)
         && (has_spin.contains(&true) || collision.restitution.is_ok());
     let alternatives = alternatives(scene, solved, &has_spin);
+    let outliers = outliers(scene, refined, &best.solution, solved.noise.value);
     let doubts = Doubts {
         mass_ratio: collision.mass_ratio,
+        is_bounded: false,
         restitution: clear_restitution(&restitution),
         converged: best.solution.converged,
         push,
@@ -80,7 +79,7 @@ pub(super) fn reconstruction(
         scene: scene.name().to_string(),
         preset: Preset::Refined,
         segment_by: SegmentCriterion::Cost,
-        flags: flags(scene, &fit, &doubts),
+        flags: flags(scene, &judged_fit(&fit, &outliers, options.loss), &doubts),
         mass_ratio,
         restitution,
         collision_time: match push.any {
@@ -94,9 +93,9 @@ pub(super) fn reconstruction(
         gravity: Some(gravity(refined, best.solution.unknowns.tilt).into()),
         effects: Vec::new(),
         noise: Some(noise_report(&has_spin, solved.noise)),
-        uncertainty: noise_known.then(|| deviations.table(names(scene))),
+        uncertainty: all_noise_known(refined, solved.noise).then(|| deviations.table(names(scene))),
         alternatives,
-        outliers: outliers(scene, refined, &best.solution, solved.noise.value),
+        outliers,
         intervals: Some(options.intervals),
         fit,
         phases: solved.phases.clone(),
@@ -122,7 +121,6 @@ fn gravity(scene: &RefinedScene, tilt: [f64; 2]) -> Vector3<f64> {
 /// Makes numbers with a deviation and an interval.
 struct Estimator<'a> {
     deviations: &'a Deviations<'a>,
-    noise_known: bool,
     /// Where the intervals come from it.
     profile: Option<&'a Profile<'a>>,
 }
@@ -161,7 +159,7 @@ impl Estimator<'_> {
         interval: impl Fn(f64, f64) -> Option<[f64; 2]>,
     ) -> Estimate {
         let Some(std) = self.deviations.std[index] else { return Estimate::unknown(NO_DATA) };
-        if !self.noise_known {
+        if !self.deviations.noise_is_known(index) {
             let reason = Some(NO_NOISE.to_string());
             return Estimate { value: Some(value), std: None, interval_95: None, reason };
         }
@@ -182,20 +180,28 @@ fn clear_restitution(restitution: &Estimate) -> Option<f64> {
     }
 }
 
-/// Whether residuals can be told in deviations: the noise of each channel is stated, or estimated
-/// from spare numbers.
-fn noise_known(refined: &RefinedScene, noise: KnownNoise) -> bool {
-    let enough = |dof: Option<f64>| dof.is_none_or(|dof| dof > 1.5);
+/// Whether every residual can be told in deviations: the noise of each channel is stated, or
+/// estimated from spare numbers.
+fn all_noise_known(refined: &RefinedScene, noise: KnownNoise) -> bool {
     let turns = refined.bodies.iter().any(|body| body.has_spin);
-    enough(noise.position_dof) && (!turns || enough(noise.orientation_dof))
+    is_known(noise.position_dof) && (!turns || is_known(noise.orientation_dof))
 }
 
 fn noise_report(has_spin: &[bool], noise: KnownNoise) -> NoiseReport {
+    let turns = has_spin.contains(&true);
+    let reason = match (turns, is_known(noise.position_dof), is_known(noise.orientation_dof)) {
+        (false, true, _) => Some(NO_ORIENTATION),
+        (_, false, _) => Some("too few poses to estimate the noise of positions: it is assumed"),
+        (true, _, false) => {
+            Some("too few orientations to estimate their noise: an annotator's is assumed")
+        }
+        _ => None,
+    };
     NoiseReport {
         position: noise.value.position,
-        orientation: has_spin.contains(&true).then_some(noise.value.orientation),
+        orientation: turns.then_some(noise.value.orientation),
         estimated: noise.position_dof.is_some(),
-        reason: (!has_spin.contains(&true)).then(|| NO_ORIENTATION.to_string()),
+        reason: reason.map(String::from),
     }
 }
 
@@ -245,50 +251,19 @@ fn fit(scene: &Scene, refined: &RefinedScene, solved: &Solved) -> Fit {
     }
 }
 
+/// The fit by which it is judged: a robust one without the poses that it holds for wrong.
+fn judged_fit(fit: &Fit, outliers: &[Outlier], loss: Loss) -> Fit {
+    let Some(chi2) = fit.chi2.filter(|_| loss == Loss::Robust) else { return fit.clone() };
+    let wrong: f64 = outliers.iter().map(|outlier| outlier.deviations.powi(2)).sum();
+    let dof = fit.dof - 3 * outliers.len() as i64;
+    Fit { reduced_chi2: (dof > 0).then(|| (chi2 - wrong) / dof as f64), ..fit.clone() }
+}
+
 /// How many of the measured numbers the fit used up: the trace of the hat matrix.
 fn used(optimum: &Optimum) -> f64 {
     let solution = &optimum.solution;
     [&solution.position_information, &solution.orientation_information]
-        .map(|channel| {
-            let information = information(solution, channel);
-            information.component_mul(&optimum.covariance.matrix).sum()
-        })
+        .map(|channel| optimum.used(channel))
         .iter()
         .sum()
-}
-
-/// Optima nearly as good as the best that say something else.
-fn alternatives(scene: &Scene, solved: &Solved, has_spin: &[bool]) -> Vec<Alternative> {
-    let best = &solved.optima[0];
-    let mut found: Vec<Alternative> = Vec::new();
-    for other in &solved.optima[1..] {
-        let delta_chi2 = 2.0 * (other.solution.cost - best.solution.cost);
-        if delta_chi2 > NEARLY_AS_GOOD || is_same(best, other) {
-            continue;
-        }
-        let collision = collision(scene, &other.solution.unknowns, has_spin);
-        let differs_in = match other.gap == best.gap {
-            true => "whole turns of a spin".to_string(),
-            false => format!("the segment: {:.4} s to {:.4} s", other.gap.start_s, other.gap.end_s),
-        };
-        found.push(Alternative {
-            differs_in,
-            delta_chi2,
-            mass_ratio: collision.mass_ratio,
-            restitution: collision.restitution.ok(),
-            collision_time: collision.time_s,
-        });
-    }
-    found
-}
-
-/// Whether two optima are one: within a tenth of a deviation in time and the spins before.
-fn is_same(a: &Optimum, b: &Optimum) -> bool {
-    let [u, v] = [&a.solution.unknowns, &b.solution.unknowns];
-    let spins = u.bodies.iter().zip(&v.bodies).all(|(a, b)| {
-        let [s, t] = [a, b].map(|m| nalgebra::Vector3::from(m.spin_before));
-        (s - t).norm() < 0.02 * s.norm().max(t.norm()).max(1e-12)
-    });
-    let time = (u.collision_time_s - v.collision_time_s).abs();
-    spins && time < 0.1 * (a.gap.end_s - a.gap.start_s)
 }

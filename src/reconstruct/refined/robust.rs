@@ -6,9 +6,9 @@
 //! 1989).
 
 use super::noise::{KnownNoise, LEAST_NOISE};
-use super::optimum::{Optimum, information, warm};
-use crate::bridge::refined::ffi::{RefinedScene, RefinedSolution};
-use crate::reconstruct::Outlier;
+use super::optimum::{Optimum, warm};
+use crate::bridge::refined::ffi::{RefinedResidual, RefinedScene, RefinedSolution};
+use crate::reconstruct::{Loss, Outlier};
 use crate::scene::Noise;
 use crate::{Error, Result, Scene};
 
@@ -53,8 +53,7 @@ fn inflate(scene: &mut RefinedScene, optimum: &Optimum, noise: Noise) {
     let solution = &optimum.solution;
     let factor = |residuals: Vec<f64>, channel: &[f64]| {
         let count = residuals.len() as f64;
-        let information = information(solution, channel);
-        let spare = 3.0 * count - information.component_mul(&optimum.covariance.matrix).sum();
+        let spare = 3.0 * count - optimum.used(channel);
         let mean = |f: &dyn Fn(f64) -> f64| residuals.iter().map(|s| f(*s)).sum::<f64>() / count;
         let weight = |s: f64| (NU + 3.0) / (NU + s);
         let slope = mean(&|s| weight(s) * (1.0 - 2.0 / 3.0 * s / (NU + s)));
@@ -94,7 +93,7 @@ fn check_spare(scene: &RefinedScene, optimum: &Optimum) -> Result<()> {
         ("orientations", turns.len(), &solution.orientation_information),
     ];
     for (name, count, channel) in channels {
-        let used = information(solution, channel).component_mul(&optimum.covariance.matrix).sum();
+        let used = optimum.used(channel);
         if used > 1.5 * count as f64 {
             let problem = format!(
                 "too few poses for a robust fit: {used:.0} of {} numbers of {name} are used up by \
@@ -140,6 +139,19 @@ pub(super) fn outliers(
     found
 }
 
+/// What a pose's residuals cost: ½ r² of each channel, or Student's ½ (ν + 3) ln(1 + r²/ν).
+pub(super) fn residual_cost(residual: &RefinedResidual, noise: Noise, loss: Loss) -> f64 {
+    let squares = [
+        square(&residual.position_m) / noise.position.powi(2),
+        square(&residual.turn_rad) / noise.orientation.powi(2),
+    ];
+    let cost = |square: f64| match loss {
+        Loss::Squares => 0.5 * square,
+        Loss::Robust => 0.5 * (NU + 3.0) * (1.0 + square / NU).ln(),
+    };
+    squares.map(cost).iter().sum()
+}
+
 /// Gives each pose the deviation σ/√w; returns the largest relative change of one.
 fn weigh(scene: &mut RefinedScene, solution: &RefinedSolution, noise: Noise) -> f64 {
     let poses = scene.bodies.iter_mut().flat_map(|body| &mut body.poses);
@@ -163,9 +175,8 @@ fn median_noise(scene: &RefinedScene, optimum: &Optimum, before: Noise) -> Known
     let solution = &optimum.solution;
     let (mut positions, mut turns) = squares(scene, solution);
     let deviation = |squares: &mut Vec<f64>, channel: &[f64], before: f64, least: f64| {
-        let information = information(solution, channel);
         let count = 3.0 * squares.len() as f64;
-        let spare = count - information.component_mul(&optimum.covariance.matrix).sum();
+        let spare = count - optimum.used(channel);
         if spare < 3.0 {
             return (before, Some(spare.max(0.0)));
         }

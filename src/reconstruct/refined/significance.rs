@@ -43,7 +43,8 @@ fn stands_out(
     covariance: Option<DMatrix<f64>>,
     limit: &dyn Fn(usize) -> f64,
 ) -> bool {
-    let Some(covariance) = covariance else { return false };
+    // Where the data leave it open nothing can be said against it.
+    let Some(covariance) = covariance else { return true };
     let eigen = covariance.symmetric_eigen();
     let largest = eigen.eigenvalues.max();
     let vector = DVector::from_column_slice(vector);
@@ -55,7 +56,7 @@ fn stands_out(
             size += 1;
         }
     }
-    size > 0 && square > limit(size)
+    size > 0 && (square.is_nan() || square > limit(size))
 }
 
 /// What the largest of `segments` squares of noise with `size` degrees of freedom exceeds once in

@@ -7,7 +7,7 @@ use super::model::set_noise;
 use super::noise::{KnownNoise, first_guess, positions, settle_noise, turns};
 use super::optimum::{Optimum, optimised};
 use super::parabolas::{Parabolas, Segment};
-use super::robust::settle_robustly;
+use super::robust::{residual_cost, settle_robustly};
 use super::spins::{Search, may_turn_otherwise};
 use super::start::{Candidate, candidates};
 use crate::Result;
@@ -43,7 +43,7 @@ pub(super) fn solve(
     let guess = stated.unwrap_or_else(|| first_guess(parabolas, segments[0].squares_m2));
     let worse_m2 = 2.0 * HOPELESS * guess.position.powi(2);
     let least_m2 = segments[0].squares_m2;
-    segments.retain(|segment| segment.squares_m2 < least_m2 + worse_m2);
+    segments.retain(|segment| segment.squares_m2 <= least_m2 + worse_m2);
     set_noise(scene, guess);
     let flights_s = started.elapsed().as_secs_f64();
     let solve_by = |scene: &mut RefinedScene, search| -> Result<Attempt> {
@@ -70,7 +70,7 @@ pub(super) fn solve(
     if misses_turns(scene, &attempt) {
         let used = attempt.noise.value;
         let other = solve_by(scene, Search::AllAxes)?;
-        if other.is_better_than(&attempt) {
+        if other.is_better_than(&attempt, scene, loss) {
             attempt = other;
         } else {
             set_noise(scene, used);
@@ -91,14 +91,16 @@ struct Attempt {
 }
 
 impl Attempt {
-    /// By the likelihood, in which the noise counts too where it was estimated:
-    /// −ln L = ½ χ² + n ln σ.
-    fn is_better_than(&self, other: &Attempt) -> bool {
+    /// By the likelihood, in which the noise counts too where it was estimated: −ln L is the cost of
+    /// all residuals over the noise, and n ln σ.
+    fn is_better_than(&self, other: &Attempt, scene: &RefinedScene, loss: Loss) -> bool {
         let score = |attempt: &Attempt| {
             let solution = &attempt.optima[0].solution;
-            let count = solution.residuals.len() as f64;
             let noise = attempt.noise.value;
-            solution.cost + 3.0 * count * (noise.position.ln() + noise.orientation.ln())
+            let (position_count, _) = positions(solution);
+            let (turn_count, _) = turns(scene, solution);
+            let cost: f64 = solution.residuals.iter().map(|r| residual_cost(r, noise, loss)).sum();
+            cost + position_count * noise.position.ln() + turn_count * noise.orientation.ln()
         };
         score(self) < score(other)
     }
@@ -119,9 +121,13 @@ fn misses_turns(scene: &RefinedScene, attempt: &Attempt) -> bool {
     match attempt.noise.orientation_dof {
         Some(spare) => squares > spare.max(1.0) * VISIBLE_RAD * VISIBLE_RAD,
         None => {
-            let numbers = positions(solution).0 + count;
-            let spare = (numbers - solution.size as f64).max(1.0);
-            2.0 * solution.cost > spare + IMPROBABLE * (2.0 * spare).sqrt()
+            let noise = attempt.noise.value;
+            let (numbers, position_squares) = positions(solution);
+            let spare = (numbers + count - solution.size as f64).max(1.0);
+            // From the residuals: weights of a robust fit would hide them.
+            let chi2 =
+                position_squares / noise.position.powi(2) + squares / noise.orientation.powi(2);
+            chi2 > spare + IMPROBABLE * (2.0 * spare).sqrt()
         }
     }
 }
@@ -140,7 +146,7 @@ fn starts(
     }
     starts.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let least = starts.first().map_or(0.0, |start| start.cost);
-    starts.retain(|start| start.cost < least + HOPELESS);
+    starts.retain(|start| start.cost <= least + HOPELESS);
     starts.truncate(MOST_STARTS);
     Ok(starts)
 }

@@ -102,7 +102,7 @@ pub(super) fn spins(
                 spins.push(spin);
             }
         }
-        spins.retain(|spin| spin.cost < least + HOPELESS);
+        spins.retain(|spin| spin.cost <= least + HOPELESS);
         spins.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         spins.truncate(MOST_SPINS);
         Ok(spins)
@@ -113,7 +113,7 @@ pub(super) fn spins(
 /// To a hundredth of the spin: fits end where they end to far less.
 fn is_same(a: &Spin, b: &Spin) -> bool {
     let difference = (a.angular_momentum - b.angular_momentum).norm();
-    difference < 0.01 * a.angular_momentum.norm().max(b.angular_momentum.norm())
+    difference <= 0.01 * a.angular_momentum.norm().max(b.angular_momentum.norm())
 }
 
 /// l along 26 axes evenly about the sphere (Fibonacci's lattice) at three speeds, up to one and a
@@ -125,7 +125,11 @@ fn spins_about_all_axes(inertia: &Vector3<f64>, poses: &[RefinedPose]) -> Vec<Ve
         .windows(2)
         .map(|pair| (pair[1].time_s - pair[0].time_s).abs())
         .fold(f64::INFINITY, f64::min);
-    let fastest = (1.5 * std::f64::consts::TAU / shortest_s).min(FASTEST_ALIAS_RAD_S);
+    // A single pose bounds nothing.
+    let fastest = match shortest_s.is_finite() {
+        true => (1.5 * std::f64::consts::TAU / shortest_s).min(FASTEST_ALIAS_RAD_S),
+        false => FASTEST_ALIAS_RAD_S,
+    };
     (0..AXES)
         .flat_map(|index| {
             let height = 1.0 - (2 * index + 1) as f64 / AXES as f64;

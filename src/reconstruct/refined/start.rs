@@ -122,7 +122,7 @@ fn body_pairs(body: &RefinedBody, segment: &Segment, search: Search) -> Result<V
         .collect();
     pairs.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let least = pairs.first().map_or(0.0, |pair| pair.cost);
-    pairs.retain(|pair| pair.cost < least + HOPELESS);
+    pairs.retain(|pair| pair.cost <= least + HOPELESS);
     pairs.truncate(MOST_PAIRS);
     Ok(pairs)
 }
@@ -185,7 +185,7 @@ fn start(
 ) -> RefinedUnknowns {
     let jumps: Vec<Vector3<f64>> =
         kinks.iter().map(|kink| kink.velocity_after - kink.velocity_before).collect();
-    // J = Δv_a = −m Δv_b: m by projection, the larger jump telling the direction.
+    // J = Δv_a = −m Δv_b: m by projection on b's jump.
     let mass_ratio = jumps.get(1).map_or(1.0, |b| {
         let ratio = -jumps[0].dot(b) / b.norm_squared();
         if ratio.is_finite() { ratio.clamp(1e-3, 1e3) } else { 1.0 }

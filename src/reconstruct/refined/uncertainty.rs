@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::noise::KnownNoise;
+use super::noise::{KnownNoise, is_known};
 use super::optimum::{Optimum, information};
 use crate::reconstruct::Uncertainty;
 
@@ -46,25 +46,37 @@ impl<'a> Deviations<'a> {
         }
     }
 
+    /// Whether the deviation of number `index` rests on noises that are known; a hundredth of its
+    /// variance may rest on others.
+    pub(super) fn noise_is_known(&self, index: usize) -> bool {
+        let shares = self.shares(&self.gradient(index));
+        shares.iter().all(|(dof, share)| is_known(*dof) || *share < 0.01)
+    }
+
     /// The degrees of freedom of the noise in the number with this gradient; infinite where the
     /// noise is stated.
     fn dof(&self, gradient: &DVector<f64>) -> f64 {
-        let channels = [
-            (self.noise.position_dof, &self.optimum.solution.position_information),
-            (self.noise.orientation_dof, &self.optimum.solution.orientation_information),
-        ];
+        let shares = self.shares(gradient);
+        let estimated = shares.iter().filter_map(|(dof, share)| Some((dof.as_ref()?, share)));
+        let uncertainty: f64 =
+            estimated.filter(|(_, share)| **share > 0.0).map(|(dof, s)| s * s / dof.max(1.0)).sum();
+        1.0 / uncertainty
+    }
+
+    /// Of each channel the degrees of freedom of its noise, and its share in the variance of the
+    /// number with this gradient.
+    fn shares(&self, gradient: &DVector<f64>) -> [(Option<f64>, f64); 2] {
+        let solution = &self.optimum.solution;
         let along = &self.optimum.covariance.matrix * gradient;
         let variance = gradient.dot(&along);
-        let mut uncertainty = 0.0;
-        for (dof, channel) in channels {
-            let Some(dof) = dof else { continue };
-            let matrix = information(&self.optimum.solution, channel);
-            let share = along.dot(&(matrix * &along)) / variance;
-            if share > 0.0 {
-                uncertainty += share * share / dof.max(1.0);
-            }
-        }
-        1.0 / uncertainty
+        [
+            (self.noise.position_dof, &solution.position_information),
+            (self.noise.orientation_dof, &solution.orientation_information),
+        ]
+        .map(|(dof, channel)| {
+            let share = along.dot(&(information(solution, channel) * &along)) / variance;
+            (dof, if share.is_finite() { share } else { 0.0 })
+        })
     }
 
     /// As it stands in the result.

@@ -1,0 +1,105 @@
+#include "refined_summary.h"
+
+#include "ceres_compat.h"
+
+namespace smash {
+namespace {
+
+using MatrixX = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+template <typename Rows>
+void Accumulate(const Rows& rows, MatrixX& information) {
+  information.noalias() += rows.transpose() * rows;
+}
+
+void Copy(const MatrixX& from, rust::Vec<double>& to) {
+  to.reserve(static_cast<std::size_t>(from.size()));
+  for (Eigen::Index i = 0; i < from.size(); ++i) to.push_back(from.data()[i]);
+}
+
+// The flight's derivatives by all unknowns, orientations as turns in the world.
+MatrixX TangentJacobian(const RefinedScene& scene, const Flight& flight, RefinedBlocks& all,
+                        Eigen::VectorXd& residuals) {
+  const std::vector<Block*> blocks = all.OfFlight(flight.body, flight.is_after);
+  const auto rows = residuals.size();
+  std::vector<MatrixX> ambient;
+  std::vector<double*> jacobians;
+  for (const Block* block : blocks) {
+    ambient.emplace_back(rows, static_cast<Eigen::Index>(block->values.size()));
+  }
+  for (MatrixX& matrix : ambient) jacobians.push_back(matrix.data());
+  const std::vector<double*> values = all.ValuesOfFlight(flight.body, flight.is_after);
+  if (!scene.bodies[flight.body].has_spin) jacobians[kOrientation] = nullptr;
+  flight.cost->Evaluate(values.data(), residuals.data(), jacobians.data());
+  MatrixX jacobian = MatrixX::Zero(rows, all.size);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = *blocks[i];
+    if (block.place < 0) continue;
+    auto target = jacobian.middleCols(block.place, block.tangent_size);
+    if (i == kOrientation) {
+      Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
+      ceres::QuaternionManifold().PlusJacobian(block.values.data(), plus.data());
+      // Ceres' tangent is half the angle.
+      target = 0.5 * ambient[i] * plus;
+    } else {
+      target = ambient[i].leftCols(block.tangent_size);
+    }
+  }
+  return jacobian;
+}
+
+// What is known of the tilt beforehand. The contact point's prior is no knowledge: what it alone
+// determines is to be called undetermined.
+MatrixX Prior(const RefinedScene& scene, const RefinedBlocks& blocks, double& chi2) {
+  MatrixX prior = MatrixX::Zero(blocks.size, blocks.size);
+  if (blocks.tilt.place >= 0) {
+    const double weight = 1.0 / (scene.tilt_std_rad * scene.tilt_std_rad);
+    const Eigen::Map<const Eigen::Vector2d> tilt(blocks.tilt.values.data());
+    chi2 += weight * tilt.squaredNorm();
+    prior.block<2, 2>(blocks.tilt.place, blocks.tilt.place).diagonal().setConstant(weight);
+  }
+  return prior;
+}
+
+}  // namespace
+
+void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights, RefinedBlocks& blocks,
+               RefinedSolution& solution) {
+  MatrixX position = MatrixX::Zero(blocks.size, blocks.size);
+  MatrixX orientation = MatrixX::Zero(blocks.size, blocks.size);
+  double chi2 = 0.0;
+  std::vector<std::vector<RefinedResidual>> before(blocks.bodies.size()),
+      after(blocks.bodies.size());
+  for (const Flight& flight : flights) {
+    Eigen::VectorXd residuals(flight.cost->num_residuals());
+    const MatrixX jacobian = TangentJacobian(scene, flight, blocks, residuals);
+    chi2 += residuals.squaredNorm();
+    int row = 0;
+    for (const FlightPose& pose : flight.cost->poses()) {
+      Accumulate(jacobian.middleRows(row, 3), position);
+      RefinedResidual residual{};
+      for (int i = 0; i < 3; ++i) residual.position_m[i] = residuals[row + i] * pose.position_std_m;
+      if (flight.cost->Rows(pose) == 6) {
+        Accumulate(jacobian.middleRows(row + 3, 3), orientation);
+        for (int i = 0; i < 3; ++i) {
+          residual.turn_rad[i] = residuals[row + 3 + i] * pose.orientation_std_rad;
+        }
+      }
+      (flight.is_after ? after : before)[flight.body].push_back(residual);
+      row += flight.cost->Rows(pose);
+    }
+  }
+  for (std::size_t i = 0; i < blocks.bodies.size(); ++i) {
+    // A flight before the collision is kept outwards from it: backwards in time.
+    for (auto r = before[i].rbegin(); r != before[i].rend(); ++r) solution.residuals.push_back(*r);
+    for (const RefinedResidual& r : after[i]) solution.residuals.push_back(r);
+  }
+  const MatrixX prior = Prior(scene, blocks, chi2);
+  solution.cost = 0.5 * chi2;
+  solution.size = static_cast<std::size_t>(blocks.size);
+  Copy(position, solution.position_information);
+  Copy(orientation, solution.orientation_information);
+  Copy(prior, solution.prior_information);
+}
+
+}  // namespace smash

@@ -1,0 +1,51 @@
+//! Other solutions that explain the poses nearly as well.
+
+use nalgebra::Vector3;
+
+use super::optimum::Optimum;
+use super::quantities::collision;
+use super::solve::Solved;
+use crate::Scene;
+use crate::reconstruct::Alternative;
+
+/// Optima whose χ² is larger by more are improbable: three standard deviations.
+const NEARLY_AS_GOOD: f64 = 9.0;
+
+/// Optima nearly as good as the best that say something else.
+pub(super) fn alternatives(scene: &Scene, solved: &Solved, has_spin: &[bool]) -> Vec<Alternative> {
+    let best = &solved.optima[0];
+    let mut told = vec![best];
+    let mut found: Vec<Alternative> = Vec::new();
+    for other in &solved.optima[1..] {
+        let delta_chi2 = 2.0 * (other.solution.cost - best.solution.cost);
+        if delta_chi2 > NEARLY_AS_GOOD || told.iter().any(|known| is_same(known, other)) {
+            continue;
+        }
+        told.push(other);
+        let collision = collision(scene, &other.solution.unknowns, has_spin);
+        let differs_in = match other.gap == best.gap {
+            true => "whole turns of a spin".to_string(),
+            false => format!("the segment: {:.4} s to {:.4} s", other.gap.start_s, other.gap.end_s),
+        };
+        found.push(Alternative {
+            differs_in,
+            delta_chi2,
+            mass_ratio: collision.mass_ratio,
+            restitution: collision.restitution.ok(),
+            collision_time: collision.time_s,
+        });
+    }
+    found
+}
+
+/// Whether two optima are one: the same spins before to 2 %, and times as near as a tenth of the
+/// segment. Solvers end far nearer to the same optimum; other turns are far further off.
+fn is_same(a: &Optimum, b: &Optimum) -> bool {
+    let [u, v] = [&a.solution.unknowns, &b.solution.unknowns];
+    let spins = u.bodies.iter().zip(&v.bodies).all(|(a, b)| {
+        let [s, t] = [a, b].map(|m| Vector3::from(m.spin_before));
+        (s - t).norm() < 0.02 * s.norm().max(t.norm()).max(1e-12)
+    });
+    let time = (u.collision_time_s - v.collision_time_s).abs();
+    spins && time < 0.1 * (a.gap.end_s - a.gap.start_s)
+}
