@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::layout::Layout;
 use super::optimum::Optimum;
 use super::quantities::collision;
 use super::solve::Solved;
@@ -12,13 +13,19 @@ use crate::reconstruct::Alternative;
 const NEARLY_AS_GOOD: f64 = 9.0;
 
 /// Optima nearly as good as the best that say something else.
-pub(super) fn alternatives(scene: &Scene, solved: &Solved, has_spin: &[bool]) -> Vec<Alternative> {
+pub(super) fn alternatives(
+    scene: &Scene,
+    solved: &Solved,
+    layout: &Layout,
+    has_spin: &[bool],
+) -> Vec<Alternative> {
+    let time = layout.time;
     let best = &solved.optima[0];
     let mut told = vec![best];
     let mut found: Vec<Alternative> = Vec::new();
     for other in &solved.optima[1..] {
         let delta_chi2 = 2.0 * (other.solution.cost - best.solution.cost);
-        if delta_chi2 > NEARLY_AS_GOOD || told.iter().any(|known| is_same(known, other)) {
+        if delta_chi2 > NEARLY_AS_GOOD || told.iter().any(|known| is_same(known, other, time)) {
             continue;
         }
         told.push(other);
@@ -39,13 +46,15 @@ pub(super) fn alternatives(scene: &Scene, solved: &Solved, has_spin: &[bool]) ->
 }
 
 /// Whether two optima are one: the same spins before to 2 %, and times as near as a tenth of the
-/// segment. Solvers end far nearer to the same optimum; other turns are far further off.
-fn is_same(a: &Optimum, b: &Optimum) -> bool {
+/// segment or three deviations. Other turns are far further off. `time`: where it stands in the
+/// layout.
+fn is_same(a: &Optimum, b: &Optimum, time: usize) -> bool {
     let [u, v] = [&a.solution.unknowns, &b.solution.unknowns];
     let spins = u.bodies.iter().zip(&v.bodies).all(|(a, b)| {
         let [s, t] = [a, b].map(|m| Vector3::from(m.spin_before));
         (s - t).norm() < 0.02 * s.norm().max(t.norm()).max(1e-12)
     });
-    let time = (u.collision_time_s - v.collision_time_s).abs();
-    spins && time < 0.1 * (a.gap.end_s - a.gap.start_s)
+    let std_s = a.covariance.matrix[(time, time)].sqrt();
+    let apart_s = (u.collision_time_s - v.collision_time_s).abs();
+    spins && apart_s < (0.1 * (a.gap.end_s - a.gap.start_s)).max(3.0 * std_s)
 }

@@ -43,8 +43,39 @@ pub(super) fn information(solution: &RefinedSolution, channel: &[f64]) -> DMatri
     DMatrix::from_row_slice(solution.size, solution.size, channel)
 }
 
-pub(super) fn optimised(scene: &RefinedScene, starts: &[Candidate]) -> Result<Vec<Optimum>> {
-    all_optima(scene, starts.iter().map(|start| (&start.unknowns, start.gap)))
+pub(super) fn optimised(
+    scene: &RefinedScene,
+    starts: &[Candidate],
+    gaps: &[Gap],
+) -> Result<Vec<Optimum>> {
+    let optima = all_optima(scene, starts.iter().map(|start| (&start.unknowns, start.gap)))?;
+    let mut walked =
+        optima.into_iter().map(|o| walked(scene, o, gaps)).collect::<Result<Vec<_>>>()?;
+    sort(&mut walked);
+    Ok(walked)
+}
+
+/// On to the next segment, and the next, as long as the collision time ends at a bound and χ² falls.
+fn walked(scene: &RefinedScene, mut best: Optimum, gaps: &[Gap]) -> Result<Optimum> {
+    const MOST_STEPS: usize = 50;
+    for _ in 0..MOST_STEPS {
+        let Gap { start_s, end_s } = best.gap;
+        let margin_s = 1e-6 * (end_s - start_s);
+        let time_s = best.solution.unknowns.collision_time_s;
+        let next = match (time_s - start_s < margin_s, end_s - time_s < margin_s) {
+            (true, _) => gaps.iter().find(|gap| gap.end_s == start_s),
+            (_, true) => gaps.iter().find(|gap| gap.start_s == end_s),
+            _ => None,
+        };
+        let Some(&gap) = next else { break };
+        let other = optimum(scene, &free_problem(&best.solution.unknowns, &gap), gap)?;
+        // By more than rounding.
+        if other.solution.cost >= best.solution.cost * (1.0 - 1e-9) {
+            break;
+        }
+        best = other;
+    }
+    Ok(best)
 }
 
 /// The optima from where they are: their noise has changed.

@@ -85,9 +85,9 @@ impl Parabolas {
         Parabolas { bodies, origin_s, gaps, splits }
     }
 
-    /// How many segments there are.
-    pub(super) fn segments(&self) -> usize {
-        self.gaps.len()
+    /// All segments, in order of time.
+    pub(super) fn gaps(&self) -> &[Gap] {
+        &self.gaps
     }
 
     /// Measured numbers minus unknowns (position, two velocities, t_c) of the fit in a segment.

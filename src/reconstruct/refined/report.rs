@@ -63,7 +63,7 @@ pub(super) fn reconstruction(
     let contact = collision.contact.filter(|_| push.any);
     let knows_point = contact_point_is_known(scene, &deviations)
         && (has_spin.contains(&true) || collision.restitution.is_ok());
-    let alternatives = alternatives(scene, solved, &has_spin);
+    let alternatives = alternatives(scene, solved, &layout, &has_spin);
     let outliers = outliers(scene, refined, &best.solution, solved.noise.value);
     let doubts = Doubts {
         mass_ratio: collision.mass_ratio,

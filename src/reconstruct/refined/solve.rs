@@ -13,7 +13,7 @@ use super::start::{Candidate, candidates};
 use crate::Result;
 use crate::bridge::refined::ffi::RefinedScene;
 use crate::reconstruct::{Loss, PhaseReport};
-use crate::scene::Noise;
+use crate::scene::{Gap, Noise};
 
 /// Segments that phase 2 looks into.
 const MOST_SEGMENTS: usize = 4;
@@ -44,6 +44,7 @@ pub(super) fn solve(
     let worse_m2 = 2.0 * HOPELESS * guess.position.powi(2);
     let least_m2 = segments[0].squares_m2;
     segments.retain(|segment| segment.squares_m2 <= least_m2 + worse_m2);
+    drop_neighbours(&mut segments, parabolas.gaps());
     set_noise(scene, guess);
     let flights_s = started.elapsed().as_secs_f64();
     let solve_by = |scene: &mut RefinedScene, search| -> Result<Attempt> {
@@ -51,7 +52,7 @@ pub(super) fn solve(
         let started = Instant::now();
         let starts = starts(scene, parabolas, &segments, guess, search)?;
         let jumps_s = started.elapsed().as_secs_f64();
-        let mut optima = optimised(scene, &starts)?;
+        let mut optima = optimised(scene, &starts, parabolas.gaps())?;
         let cost_initial = optima[0].solution.cost_initial;
         let noise = match (loss, stated) {
             (Loss::Robust, _) => settle_robustly(scene, &mut optima, guess, stated)?,
@@ -80,7 +81,24 @@ pub(super) fn solve(
     let mut phases = vec![phase("1 flights", position_cost, position_cost, 0, flights_s)];
     phases.append(&mut attempt.phases);
     let Attempt { optima, noise, .. } = attempt;
-    Ok(Solved { optima, noise, segments: parabolas.segments(), phases })
+    Ok(Solved { optima, noise, segments: parabolas.gaps().len(), phases })
+}
+
+/// Where poses are dense the segments beside the best are nearly as good, and phase 3 finds its way
+/// from one to the next: of short ones that touch, the best is start enough.
+fn drop_neighbours(segments: &mut Vec<Segment>, gaps: &[Gap]) {
+    /// Of all segments' time together.
+    const SHORT: f64 = 1.0 / 15.0;
+    let span_s = gaps.last().map_or(0.0, |last| last.end_s) - gaps[0].start_s;
+    let is_short = |gap: &Gap| gap.end_s - gap.start_s < SHORT * span_s;
+    let touch = |a: &Gap, b: &Gap| a.end_s == b.start_s || b.end_s == a.start_s;
+    let mut chain: Vec<Gap> = Vec::new();
+    segments.retain(|segment| {
+        let is_neighbour =
+            is_short(&segment.gap) && chain.iter().any(|known| touch(known, &segment.gap));
+        chain.push(segment.gap);
+        !is_neighbour
+    });
 }
 
 /// What one search for the spins led to.
