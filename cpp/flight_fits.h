@@ -10,7 +10,7 @@ namespace smash {
 SpinFit FitSpin(const SpinFlight& flight);
 
 // The impulse, line of action and mass ratio that explain the jumps, which have passed
-// CheckRefinedInput.
+// CheckJumps.
 JumpFit FitJump(const RefinedScene& scene, rust::Slice<const Jump> jumps,
                 const RefinedUnknowns& start);
 

@@ -80,6 +80,7 @@ class RefinedFit {
 
  private:
   bool has_spin(std::size_t body) const { return scene_.bodies[body].has_spin; }
+
   void AddFlights() {
     const TiltedGravity gravity{scene_.gravity_m_s2, ToVector3(scene_.down), Across()};
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {

@@ -9,7 +9,7 @@
 
 namespace smash {
 
-// Minimises from the start, all of which has passed CheckRefinedInput. Throws std::runtime_error
+// Minimises from the start, all of which has passed CheckRefinedProblem. Throws std::runtime_error
 // when no usable solution is found.
 RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& problem);
 

@@ -111,7 +111,8 @@ pub(super) fn turns(scene: &RefinedScene, solution: &RefinedSolution) -> (f64, f
     (3.0 * oriented.count() as f64, squares.sum())
 }
 
-fn square(v: &[f64; 3]) -> f64 {
+/// |v|².
+pub(super) fn square(v: &[f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
 

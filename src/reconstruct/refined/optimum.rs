@@ -49,14 +49,14 @@ pub(super) fn optimised(
     gaps: &[Gap],
 ) -> Result<Vec<Optimum>> {
     let optima = all_optima(scene, starts.iter().map(|start| (&start.unknowns, start.gap)))?;
-    let mut walked =
-        optima.into_iter().map(|o| walked(scene, o, gaps)).collect::<Result<Vec<_>>>()?;
+    let mut walked: Vec<Optimum> =
+        optima.into_iter().map(|optimum| walked(scene, optimum, gaps)).collect();
     sort(&mut walked);
     Ok(walked)
 }
 
 /// On to the next segment, and the next, as long as the collision time ends at a bound and χ² falls.
-fn walked(scene: &RefinedScene, mut best: Optimum, gaps: &[Gap]) -> Result<Optimum> {
+fn walked(scene: &RefinedScene, mut best: Optimum, gaps: &[Gap]) -> Optimum {
     const MOST_STEPS: usize = 50;
     for _ in 0..MOST_STEPS {
         let Gap { start_s, end_s } = best.gap;
@@ -68,14 +68,14 @@ fn walked(scene: &RefinedScene, mut best: Optimum, gaps: &[Gap]) -> Result<Optim
             _ => None,
         };
         let Some(&gap) = next else { break };
-        let other = optimum(scene, &free_problem(&best.solution.unknowns, &gap), gap)?;
-        // By more than rounding.
-        if other.solution.cost >= best.solution.cost * (1.0 - 1e-9) {
-            break;
+        let next = optimum(scene, &free_problem(&best.solution.unknowns, &gap), gap);
+        match next {
+            // By more than rounding.
+            Ok(other) if other.solution.cost < best.solution.cost * (1.0 - 1e-9) => best = other,
+            _ => break,
         }
-        best = other;
     }
-    Ok(best)
+    best
 }
 
 /// The optima from where they are: their noise has changed.

@@ -45,7 +45,6 @@ pub(super) fn solve(
     let least_m2 = segments[0].squares_m2;
     segments.retain(|segment| segment.squares_m2 <= least_m2 + worse_m2);
     drop_neighbours(&mut segments, parabolas.gaps());
-    set_noise(scene, guess);
     let flights_s = started.elapsed().as_secs_f64();
     let solve_by = |scene: &mut RefinedScene, search| -> Result<Attempt> {
         set_noise(scene, guess);
@@ -69,12 +68,11 @@ pub(super) fn solve(
     };
     let mut attempt = solve_by(scene, Search::Turns)?;
     if misses_turns(scene, &attempt) {
-        let used = attempt.noise.value;
-        let other = solve_by(scene, Search::AllAxes)?;
-        if other.is_better_than(&attempt, scene, loss) {
-            attempt = other;
-        } else {
-            set_noise(scene, used);
+        let poses = scene.clone();
+        match solve_by(scene, Search::AllAxes) {
+            Ok(other) if other.is_better_than(&attempt, scene, loss) => attempt = other,
+            // With the noise, and maybe the weights, of the first.
+            _ => *scene = poses,
         }
     }
     let position_cost = 0.5 * least_m2 / guess.position.powi(2);
