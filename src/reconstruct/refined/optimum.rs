@@ -11,6 +11,8 @@ use crate::reconstruct::solver_error;
 use crate::scene::Gap;
 use crate::{Error, ErrorKind, Result};
 
+const MOST_ITERATIONS: u32 = 50;
+
 /// An optimum in one segment.
 #[derive(Debug, Clone)]
 pub(super) struct Optimum {
@@ -29,6 +31,8 @@ pub(super) fn free_problem(unknowns: &ffi::RefinedUnknowns, gap: &Gap) -> Refine
         latest_s: gap.end_s,
         hold: RefinedHold { collision_time: false, log_mass_ratio: false },
         restitution: RestitutionPin { value: 0.0, weight: 0.0 },
+        most_iterations: MOST_ITERATIONS,
+        with_jacobian: false,
     }
 }
 
