@@ -1,18 +1,21 @@
 //! `smash compare`: results against the poses, and against each other.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::files::{Output, display_name, print_bytes};
+use smash::compare::plots;
+use smash::files::{Output, OutputFolder, display_name, print_bytes};
 use smash::{Reconstruction, Result, Scene, compare};
 
 use super::comparison;
 
 /// Compares results with the poses: where a model fails, and where several results differ
 ///
-/// Residuals (model minus pose) by body, before and after the collision, in position and
-/// orientation. With several results, also what each says, and how far later ones are from the
-/// first.
+/// Residuals (pose minus model) by body, before and after the collision, in position and
+/// orientation; whether they look random along the axes where causes show, and in words where they
+/// don't; single poses that are wrong; momentum and energy before and after. With several results,
+/// also what each says, and how far later ones are from the first.
 #[derive(Args)]
 pub struct Arguments {
     /// The scene (smash.scene/1), or - for standard input
@@ -23,6 +26,10 @@ pub struct Arguments {
     /// Where to write the comparison (smash.comparison/1), or - for standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Draw the residuals over time: RESULT-BODY.svg for each result and body, in this folder; made
+    /// if need be
+    #[arg(long, value_name = "FOLDER")]
+    svg: Option<PathBuf>,
     /// Print the comparison as JSON instead of words
     #[arg(long)]
     json: bool,
@@ -35,6 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         results.clone().chain([&arguments.scene]).map(PathBuf::as_path).collect();
     let check = |path| Output::check(path, &inputs);
     let output = arguments.output.as_deref().map(check).transpose()?;
+    let folder = arguments.svg.as_deref().map(OutputFolder::open).transpose()?;
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());
     let read =
@@ -46,10 +54,37 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
     }
+    if let Some(folder) = &folder {
+        draw(folder, &scene, &results)?;
+    }
     match &output {
         // Standard output carries the data already.
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => print_bytes(comparison::in_words(&comparison).as_bytes()),
     }
+}
+
+/// A picture for each result and body.
+fn draw(folder: &OutputFolder, scene: &Scene, results: &[(String, Reconstruction)]) -> Result<()> {
+    let mut taken = HashSet::new();
+    for (name, result) in results {
+        let stem = Path::new(name).file_stem().map_or(name.clone(), |s| s.to_string_lossy().into());
+        for plot in plots(scene, name, result).map_err(|error| error.in_file(name))? {
+            let wanted = format!("{}-{}", plain(&stem), plain(&plot.body));
+            let numbered = (2..).map(|number| format!("{wanted}-{number}"));
+            let free =
+                std::iter::once(wanted.clone()).chain(numbered).find(|one| !taken.contains(one));
+            let file = free.unwrap_or(wanted);
+            folder.output(&format!("{file}.svg"))?.write(plot.svg.as_bytes())?;
+            taken.insert(file);
+        }
+    }
+    Ok(())
+}
+
+/// `name` with what a file's name can't have everywhere as `_`.
+fn plain(name: &str) -> String {
+    let keep = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+    name.chars().take(60).map(keep).collect()
 }

@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::channels::ChannelTest;
+use super::ledger::Ledger;
 use crate::json::pretty;
-use crate::reconstruct::Preset;
+use crate::reconstruct::{Outlier, Preset};
 
 /// The value of a comparison file's field `schema`.
 pub const COMPARISON_SCHEMA: &str = "smash.comparison/1";
@@ -59,6 +61,18 @@ pub struct ResultResiduals {
     pub reported_orientation_rmse: Option<f64>,
     /// Where the residuals are; none where no motion is known.
     pub channels: Vec<ChannelResidual>,
+    /// Whether the residuals look random, along the axes where causes show.
+    #[serde(default)]
+    pub structure: Vec<ChannelTest>,
+    /// Where they don't, in words, the clearest first; empty where nothing looks structured.
+    #[serde(default)]
+    pub findings: Vec<String>,
+    /// Poses that lie too far off to be noise, the worst first: by noise alone there is one in one
+    /// of a hundred scenes.
+    #[serde(default)]
+    pub outliers: Vec<Outlier>,
+    /// Momentum, angular momentum and energy before and after the collision.
+    pub ledger: Ledger,
     /// Why something is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -84,7 +98,7 @@ pub enum Channel {
     Orientation,
 }
 
-/// The residuals (model minus pose) of one body, on one side, in one channel.
+/// The residuals (pose minus model) of one body, on one side, in one channel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ChannelResidual {
     /// The body's name.

@@ -2,20 +2,35 @@
 //!
 //! ```text
 //! scene ──┐
-//! results ┴─► flights ─► residuals by body, segment, channel ──┐
-//!         └─► side by side, with differences in deviations ────┴─► comparison
+//! results ┴─► flights ─► residuals by body, segment, channel ─► random? ─► findings ─┐
+//!         ├─► ledger of momentum and energy ─────────────────────────────────────────┤
+//!         └─► side by side, with differences in deviations ──────────────────────────┴─► comparison
 //! ```
 
+mod axis;
+mod channels;
 mod comparison;
+mod findings;
 mod flight;
 mod identity;
+mod ledger;
+mod leverage;
+mod plot;
+mod randomness;
 mod residuals;
 mod side_by_side;
+mod yardstick;
 
+pub use axis::Axis;
+pub use channels::{ChannelTest, SignedMiss, channels};
 pub use comparison::{
     COMPARISON_SCHEMA, Channel, ChannelResidual, ComparedNoise, Comparison, Difference, Entry,
     LargestMiss, Quantity, ResultResiduals, Segment,
 };
+pub use findings::findings;
+pub use ledger::{Ledger, LedgerEntry, LedgerLine};
+pub use plot::{Plot, plots};
+pub use randomness::{Pattern, RandomnessTest, TestName};
 
 use crate::{Reconstruction, Result, Scene};
 

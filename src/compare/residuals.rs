@@ -1,9 +1,13 @@
-//! Model minus pose, by body, segment and channel.
+//! Pose minus model, by body, segment and channel.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::flight::Flight;
+use super::channels::channels_of;
+use super::findings::findings;
+use super::flight::{PredictedRotation, Prediction, predictions};
+use super::ledger::ledger;
+use super::yardstick::{Yardsticks, outliers};
 use super::{Channel, ChannelResidual, ComparedNoise, LargestMiss, ResultResiduals, Segment};
 use crate::scene::{DynamicBody, Observation, Scene};
 use crate::{Reconstruction, Result};
@@ -14,15 +18,87 @@ const NO_SPIN: &str = "the result doesn't tell all spins, so some orientations c
 /// By noise alone a channel stands out as often.
 const FALSE_ALARMS: f64 = 1e-3;
 
-/// The model's pose minus the annotated one.
-struct PoseResidual {
-    time_s: f64,
-    position_m: Vector3<f64>,
-    /// The rotation vector of q_obs⁻¹ q; `None` where it isn't annotated or the model has none.
-    turn_rad: Option<Vector3<f64>>,
+/// The annotated pose minus the model's, and how the model moves there.
+pub(super) struct PoseResidual {
+    pub(super) time_s: f64,
+    pub(super) position_m: Vector3<f64>,
+    /// The rotation vector from the model to the pose, in the world; `None` where it isn't annotated
+    /// or the model has none.
+    pub(super) turn_rad: Option<Vector3<f64>>,
+    pub(super) velocity_in_world: Vector3<f64>,
+    /// `None` where the result doesn't tell it.
+    pub(super) omega_in_world: Option<Vector3<f64>>,
+    pub(super) seen_in_world: Vector3<f64>,
 }
 
-/// The residuals of `result`, called `name`, in `scene`.
+/// The residuals of one body on one side of the collision.
+pub(super) struct Side<'a> {
+    pub(super) body: &'a DynamicBody,
+    pub(super) body_index: usize,
+    pub(super) segment: Segment,
+    /// The first pose's number among the body's.
+    pub(super) first: usize,
+    pub(super) poses: Vec<PoseResidual>,
+}
+
+/// The residuals of `result` by body, before the collision and after it; `None` where the result has
+/// no collision time.
+///
+/// # Errors
+/// As [`predictions`].
+pub(super) fn sides<'a>(
+    scene: &'a Scene,
+    result: &Reconstruction,
+) -> Result<Option<Vec<Side<'a>>>> {
+    let predictions = predictions(scene, result)?;
+    let Some((predictions, time_s)) = predictions.zip(result.collision_time.value) else {
+        return Ok(None);
+    };
+    let mut sides = Vec::new();
+    for (body_index, (body, predictions)) in scene.bodies().iter().zip(&predictions).enumerate() {
+        let split = body.observations.partition_point(|pose| pose.time_s < time_s);
+        let all = body
+            .observations
+            .iter()
+            .zip(predictions)
+            .map(|(seen, model)| pose_residual(seen, model));
+        let mut before: Vec<PoseResidual> = all.collect();
+        let after = before.split_off(split);
+        for (segment, first, poses) in
+            [(Segment::Before, 0, before), (Segment::After, split, after)]
+        {
+            sides.push(Side { body, body_index, segment, first, poses });
+        }
+    }
+    Ok(Some(sides))
+}
+
+fn pose_residual(seen: &Observation, model: &Prediction) -> PoseResidual {
+    let orientations = seen.world_from_body.zip(model.rotation);
+    let turn = |(seen, model): (UnitQuaternion<f64>, PredictedRotation)| {
+        (seen * model.world_from_body.inverse()).scaled_axis()
+    };
+    PoseResidual {
+        time_s: seen.time_s,
+        position_m: seen.position_in_world - model.position_in_world,
+        turn_rad: orientations.map(turn),
+        velocity_in_world: model.velocity_in_world,
+        omega_in_world: model.rotation.map(|rotation| rotation.omega_in_world),
+        seen_in_world: seen.position_in_world,
+    }
+}
+
+impl PoseResidual {
+    /// In m or rad.
+    pub(super) fn in_channel(&self, channel: Channel) -> Option<Vector3<f64>> {
+        match channel {
+            Channel::Position => Some(self.position_m),
+            Channel::Orientation => self.turn_rad,
+        }
+    }
+}
+
+/// The residuals of `result`, called `name`, in `scene`, and what they tell.
 pub(super) fn of(
     scene: &Scene,
     name: &str,
@@ -37,70 +113,45 @@ pub(super) fn of(
         reported_position_rmse: result.fit.position_rmse,
         reported_orientation_rmse: result.fit.orientation_rmse,
         channels: Vec::new(),
+        structure: Vec::new(),
+        findings: Vec::new(),
+        outliers: Vec::new(),
+        ledger: ledger(scene, result),
         reason: None,
     };
-    let Some(collision_time_s) = result.collision_time.value else {
+    let Some(sides) = sides(scene, result)? else {
         told.reason = Some(NO_TIME.to_string());
         return Ok(told);
     };
-    let scenes_own = -scene.gravity_m_s2() * scene.up_in_world().into_inner();
-    let gravity_in_world = result.gravity.map_or(scenes_own, Vector3::from);
-    for (index, (body, at_collision)) in scene.bodies().iter().zip(&result.bodies).enumerate() {
-        for (segment, poses) in sides(body, collision_time_s) {
-            let flight =
-                Flight::new(at_collision, &body.shape, segment, collision_time_s, gravity_in_world);
-            let residuals = pose_residuals(&flight, poses)
-                .map_err(|error| error.at(format!("bodies[{index}]")))?;
-            let annotated = poses.iter().filter(|pose| pose.world_from_body.is_some()).count();
-            if residuals.iter().filter(|one| one.turn_rad.is_some()).count() < annotated {
-                told.reason = Some(NO_SPIN.to_string());
-            }
-            for channel in [Channel::Position, Channel::Orientation] {
-                told.channels.extend(summary(body, segment, channel, &residuals, noise));
-            }
+    for side in &sides {
+        let annotated = side.body.observations[side.first..][..side.poses.len()].iter();
+        let unknown = annotated
+            .zip(&side.poses)
+            .any(|(seen, one)| seen.world_from_body.is_some() && one.turn_rad.is_none());
+        if unknown {
+            told.reason = Some(NO_SPIN.to_string());
+        }
+        for channel in [Channel::Position, Channel::Orientation] {
+            told.channels.extend(summary(side, channel, noise));
         }
     }
     told.position_rmse = total(&told.channels, Channel::Position);
     told.orientation_rmse = total(&told.channels, Channel::Orientation);
+    let yardsticks = Yardsticks::new(scene, result, &sides);
+    told.structure = channels_of(scene, result, &sides, &yardsticks)?;
+    told.findings = findings(&told.structure);
+    told.outliers = outliers(&sides, &yardsticks);
     Ok(told)
-}
-
-fn sides(body: &DynamicBody, collision_time_s: f64) -> [(Segment, &[Observation]); 2] {
-    let split = body.observations.partition_point(|pose| pose.time_s < collision_time_s);
-    let (before, after) = body.observations.split_at(split);
-    [(Segment::Before, before), (Segment::After, after)]
-}
-
-fn pose_residuals(flight: &Flight, poses: &[Observation]) -> Result<Vec<PoseResidual>> {
-    let residuals = poses.iter().zip(flight.predictions(poses)?).map(|(seen, model)| {
-        let orientations = seen.world_from_body.zip(model.world_from_body);
-        PoseResidual {
-            time_s: seen.time_s,
-            position_m: model.position_in_world - seen.position_in_world,
-            turn_rad: orientations.map(|(seen, model)| seen.rotation_to(&model).scaled_axis()),
-        }
-    });
-    Ok(residuals.collect())
 }
 
 /// `None` where the channel has no residual.
 fn summary(
-    body: &DynamicBody,
-    segment: Segment,
+    side: &Side,
     channel: Channel,
-    residuals: &[PoseResidual],
     noise: Option<&ComparedNoise>,
 ) -> Option<ChannelResidual> {
-    let sizes: Vec<(f64, f64)> = residuals
-        .iter()
-        .filter_map(|one| {
-            let vector = match channel {
-                Channel::Position => Some(one.position_m),
-                Channel::Orientation => one.turn_rad,
-            };
-            vector.map(|vector| (one.time_s, vector.norm()))
-        })
-        .collect();
+    let vectors = side.poses.iter().filter_map(|one| Some((one.time_s, one.in_channel(channel)?)));
+    let sizes: Vec<(f64, f64)> = vectors.map(|(time, vector)| (time, vector.norm())).collect();
     let &(time, size) = sizes.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let sigma = noise.and_then(|noise| match channel {
         Channel::Position => Some(noise.position),
@@ -111,8 +162,8 @@ fn summary(
     let rmse = (squares / coordinates).sqrt();
     let rmse_in_sigma = sigma.map(|sigma| rmse / sigma);
     Some(ChannelResidual {
-        body: body.name.clone(),
-        segment,
+        body: side.body.name.clone(),
+        segment: side.segment,
         channel,
         poses: sizes.len(),
         rmse,

@@ -140,6 +140,7 @@ fn options_of_the_other_method_are_refused() {
         (&["--preset", "paper", "--robust"], "leave them out"),
         (&["--preset", "paper", "--intervals", "profile"], "leave them out"),
         (&["--preset", "paper", "--tilt-std", "1"], "leave them out"),
+        (&["--robust", "--intervals", "profile"], "leave it or `--robust` out"),
         (&["--tilt-std", "0"], "above 0"),
         (&["--tilt-std", "NaN"], "above 0"),
     ] {

@@ -66,6 +66,13 @@ pub(super) fn reconstruction(
         && (has_spin.contains(&true) || collision.restitution.is_ok());
     let alternatives = alternatives(scene, fitted, &layout)?;
     let outliers = outliers(scene, refined, &best.solution, fitted.noise.value);
+    let judged = match fitted.loss {
+        // Where half of the poses are held for wrong, it is rather the fit that is.
+        Loss::Robust if 2 * outliers.len() < best.solution.residuals.len() => {
+            judged_fit(&fit, &outliers, fitted)
+        }
+        _ => fit.clone(),
+    };
     let doubts = Doubts {
         mass_ratio: collision.mass_ratio,
         is_bounded: false,
@@ -80,7 +87,7 @@ pub(super) fn reconstruction(
         scene: scene.name().to_string(),
         preset: Preset::Refined,
         segment_by: SegmentCriterion::Cost,
-        flags: flags(scene, &judged_fit(&fit, &outliers, fitted.loss), &doubts),
+        flags: flags(scene, &judged, &doubts),
         mass_ratio,
         restitution,
         collision_time: match push.any {
@@ -253,11 +260,27 @@ fn fit(scene: &Scene, fitted: &Fitted) -> Fit {
 }
 
 /// The fit by which it is judged: a robust one without the poses that it holds for wrong.
-fn judged_fit(fit: &Fit, outliers: &[Outlier], loss: Loss) -> Fit {
-    let Some(chi2) = fit.chi2.filter(|_| loss == Loss::Robust) else { return fit.clone() };
+fn judged_fit(fit: &Fit, outliers: &[Outlier], fitted: &Fitted) -> Fit {
+    let solution = &fitted.best().solution;
+    let noise = fitted.noise.value;
+    let rest = |channel: &str, (count, squares): (f64, f64), sigma: f64| {
+        let wrong = outliers.iter().filter(|outlier| outlier.channel == channel);
+        let (wrong_count, wrong_squares) = wrong.fold((0.0, 0.0), |(count, squares), outlier| {
+            (count + 3.0, squares + (sigma * outlier.deviations).powi(2))
+        });
+        let left = (squares - wrong_squares).max(0.0) / (count - wrong_count);
+        if left.is_finite() { left.sqrt() } else { 0.0 }
+    };
+    let position_rmse = rest("position", positions(solution), noise.position);
+    let orientation_rmse = rest("orientation", turns(&fitted.refined, solution), noise.orientation);
     let wrong: f64 = outliers.iter().map(|outlier| outlier.deviations.powi(2)).sum();
     let dof = fit.dof - 3 * outliers.len() as i64;
-    Fit { reduced_chi2: (dof > 0).then(|| (chi2 - wrong) / dof as f64), ..fit.clone() }
+    Fit {
+        position_rmse,
+        orientation_rmse: fit.orientation_rmse.map(|_| orientation_rmse),
+        reduced_chi2: fit.chi2.filter(|_| dof > 0).map(|chi2| (chi2 - wrong) / dof as f64),
+        ..fit.clone()
+    }
 }
 
 /// How many of the measured numbers the fit used up: the trace of the hat matrix.

@@ -6,6 +6,8 @@ mod conservation;
 mod exact;
 mod hostile;
 mod invariance;
+mod range;
+mod robust;
 mod uncertainty;
 mod undetermined;
 
