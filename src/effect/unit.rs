@@ -95,6 +95,9 @@ impl fmt::Display for Dimension {
 impl Unit {
     /// Reads a unit such as `1/m`, `m/s^2` or `kg*m^2/s`; also `rad`, `N`, `J` and `Hz`.
     pub(super) fn parse(text: &str) -> Result<Unit, Mistake> {
+        if text.trim().is_empty() {
+            return Err(Mistake::new(0..0, "is empty", "write `1` for a pure number"));
+        }
         let dimension = dimension(&parse(text)?)?;
         Ok(Unit { text: text.trim().to_owned(), dimension })
     }
