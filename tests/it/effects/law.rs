@@ -81,7 +81,7 @@ fn what_is_said_twice_is_computed_once() {
         let effect = Effect::parse(&with_acceleration(law, "1"), "law.toml").unwrap();
         effect.laws[0].1.instructions.len()
     };
-    // norm(p - camera) and its two operands, once: a subtraction, a norm; then the rest.
+    // A difference, a norm, a product, a quotient, a multiple of g.
     assert_eq!(instructions("k * norm(p - camera) / norm(p - camera) * g"), 5);
     assert_eq!(instructions("k * 2 * g / 2"), 4);
 }
