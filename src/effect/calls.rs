@@ -35,11 +35,13 @@ pub(super) fn apply(name: &str, rule: Rule, arguments: Vec<Value>, span: Range<u
         Rule::Pure(operation) => (operation, scalar, pure),
         Rule::Keeps(operation) => (operation, scalar, arguments[0].dimension),
         Rule::Drops(operation) => (operation, scalar, pure),
-        // A dimension's half may be no whole number of parts.
-        Rule::Root => match of(0).to_the(0.5) {
-            Some(root) => (Operation::Sqrt, scalar, Some(root)),
-            None => return Err(Mistake::new(span, "has an odd unit", "take the root of less")),
-        },
+        Rule::Root => {
+            let root = of(0).to_the(0.5).ok_or_else(|| {
+                let problem = format!("the root of what is in {} has no sensible unit", of(0));
+                Mistake::new(span.clone(), problem, "check the units under the root")
+            })?;
+            (Operation::Sqrt, scalar, Some(root))
+        }
         Rule::Alike(operation) => (operation, scalar, common(&arguments, &span)?),
         Rule::Compares(operation) => {
             common(&arguments, &span)?;

@@ -4,22 +4,33 @@ use super::check::KnownParameter;
 use super::file::{Null, ParameterFile};
 use super::functions::FUNCTIONS;
 use super::names::{INPUTS, NAMES, Shape};
-use super::parse::{is_name, name_problem};
 use super::unit::Unit;
 use super::{Frame, Parameter};
 use crate::words::{limit, quoted};
-use crate::{Error, Result};
+use crate::{Error, ErrorKind, Result};
 
 /// The bounds of a parameter whose file states none.
 const WIDEST: [f64; 2] = [-1e6, 1e6];
 
+/// The longest name of an effect or a parameter, in letters.
+const LONGEST_NAME: usize = 40;
+
+/// Checks that `text` can be read as one word wherever it stands.
+pub(super) fn check_name(text: &str) -> Result<()> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let starts_well = text.starts_with(|c: char| c.is_ascii_alphabetic());
+    if starts_well && text.chars().all(is_part) && text.len() <= LONGEST_NAME {
+        return Ok(());
+    }
+    let error = Error::new(ErrorKind::Invalid, format!("{} can't be a name", quoted(text)));
+    let mend = "use letters, digits and `_`, at most 40, and start with a letter";
+    Err(error.mend(mend))
+}
+
 /// Checks a parameter.
 pub(super) fn parameter((name, file): (String, ParameterFile)) -> Result<Parameter> {
     let place = format!("parameters.{name}");
-    if !is_name(&name) {
-        let mend = "use letters, digits and `_`, at most 40, and start with a letter";
-        return Err(Error::invalid("parameters", name_problem(&name)).mend(mend));
-    }
+    check_name(&name).map_err(|error| error.at("parameters"))?;
     let taken = NAMES.iter().map(|known| known.text).chain(FUNCTIONS.map(|known| known.0));
     if taken.chain(["pi"]).any(|known| known == name) {
         let problem = format!("{} means something else in laws already", quoted(&name));

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::file::EffectFile;
 use super::law::{law, names_in};
-use super::parameters::{known_parameters, parameter};
-use super::parse::{is_name, name_problem, parse};
+use super::parameters::{check_name, known_parameters, parameter};
+use super::parse::parse;
 use super::trial::try_out;
 use super::{Effect, Hook, Need, Scope};
 use crate::files::{display_name, read_text_up_to};
@@ -49,10 +49,7 @@ impl Effect {
     }
 
     fn from_file(file: EffectFile) -> Result<Effect> {
-        if !is_name(&file.name) {
-            let mend = "use letters, digits and `_`, at most 40, and start with a letter";
-            return Err(Error::invalid("name", name_problem(&file.name)).mend(mend));
-        }
+        check_name(&file.name).map_err(|error| error.at("name"))?;
         let count = file.parameters.len();
         if count == 0 || count > MOST_PARAMETERS {
             let problem = format!("an effect has 1 to {MOST_PARAMETERS} parameters, not {count}");

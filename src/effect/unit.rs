@@ -38,8 +38,7 @@ impl Dimension {
         Dimension { metre: metre * PART, second: second * PART, kilogram: kilogram * PART }
     }
 
-    /// The powers of metre, second and kilogram: by these numbers a quantity grows when the units
-    /// shrink.
+    /// The powers of metre, second and kilogram.
     pub fn powers(self) -> [f64; 3] {
         [self.metre, self.second, self.kilogram].map(|part| f64::from(part) / f64::from(PART))
     }
