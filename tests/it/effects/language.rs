@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use smash::effect::Effect;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use smash::effect::{Effect, Need};
 
 use super::{effect, with_acceleration};
 
@@ -115,13 +117,14 @@ fn a_parameter_must_make_sense() {
             ["k.unit: `ms` is no unit\n    1/ms\n      ^^", "in `s`"],
         ),
         ("k", "unit = \"1/s +\"\nnull = 0", ["k.unit: ends where a value is missing", "sign"]),
-        ("k", "unit = \"\"\nnull = 0", ["k.unit: is empty", "write"]),
+        ("k", "unit = \"\"\nnull = 0", ["k.unit: is empty", "write `1`"]),
         ("k", "unit = \"2/s\"\nnull = 0", ["k.unit: is no unit\n    2/s\n    ^", "m/s^2"]),
         ("k", "unit = \"1/s\"", ["parameters.k: the field `null` is missing", "add `null`"]),
         ("k", "unit = \"1/s\"\nnull = [0, 0]", ["parameters.k.null", "three"]),
         ("k", "unit = \"1/s\"\nnull = nan", ["line 4, column 8: a number isn't finite", "finite"]),
         ("k", "unit = \"1/s\"\nnull = 0\nbound = [0, 1]", ["k.bound: is an unknown", "`bounds`"]),
         ("k", "unit = \"1/s\"\nnull = 0\nscan = \"gap\"", ["is \"gap\", which is", "`gaps`"]),
+        ("k", "unit = \"1/s\"\nnull = 0\nframe = \"body\"", ["k.frame: only a vector", "out"]),
         ("v", "unit = \"1\"\nnull = 0", ["`v` means something else", "another name"]),
         ("norm", "unit = \"1\"\nnull = 0", ["`norm` means something else", "another name"]),
         ("pi", "unit = \"1\"\nnull = 0", ["`pi` means something else", "another name"]),
@@ -160,6 +163,28 @@ fn the_file_itself_must_make_sense() {
         for part in parts {
             assert!(message.contains(part), "{text}\nno {part:?} in {message}");
         }
+    }
+}
+
+/// Who forgets what a law needs isn't told nonsense by a scene that lacks it.
+#[test]
+fn names_imply_what_a_scene_must_have() {
+    for (law, needs) in [
+        ("k * v", &[][..]),
+        ("k * (p - camera) * norm(w)", &[Need::Camera, Need::Orientation]),
+        ("k * dot(v, normal) * normal", &[Need::Plane]),
+        ("k * rotate(v)", &[Need::Orientation]),
+    ] {
+        assert_eq!(
+            Effect::parse(&with_acceleration(law, "1/s"), "").unwrap().needs,
+            needs,
+            "{law}"
+        );
+    }
+    let contact = "[parameters.k]\nunit = \"1\"\nnull = 0\n[law]\nimpulse = \"k * ";
+    for (law, needs) in [("dot(J, normal) * normal", &[][..]), ("slip", &[Need::Plane])] {
+        let text = effect(&format!("{contact}{law}\""));
+        assert_eq!(Effect::parse(&text, "").unwrap().needs, needs, "{law}");
     }
 }
 
@@ -213,4 +238,29 @@ fn a_file_that_is_no_text_is_refused() {
     fs::write(&path, vec![b'#'; 100_000]).unwrap();
     let message = Effect::read(&path).unwrap_err().to_string();
     assert!(message.contains("larger than 64 KiB") && message.contains("a page"), "{message}");
+}
+
+/// Broken copies of good laws, with letters of all lengths: an answer, never a panic.
+#[test]
+fn no_text_is_too_strange() {
+    const LETTERS: [char; 22] = [
+        'k', 'v', 'p', '.', ',', '(', ')', '[', ']', '+', '-', '*', '/', '^', ' ', '0', '9', 'e',
+        '²', '−', '😀', '\t',
+    ];
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut refused = 0;
+    for law in ["-k * norm(v) * v", "k * [v.x, 0, -v.y ^ 2 / v.x]", "rotate(k * (p + v * 1e-3))"] {
+        for _ in 0..500 {
+            let mut letters: Vec<char> = law.chars().collect();
+            for _ in 0..random.random_range(1..6) {
+                let at = random.random_range(0..letters.len());
+                letters[at] = LETTERS[random.random_range(0..LETTERS.len())];
+            }
+            let law: String = letters.into_iter().collect();
+            for text in [with_acceleration(&law, "1/m"), with_acceleration("k * v", &law)] {
+                refused += usize::from(Effect::parse(&text, "law.toml").is_err());
+            }
+        }
+    }
+    assert!(refused > 2000, "only {refused} of 3000 broken files were refused");
 }

@@ -73,3 +73,15 @@ fn vectors_compute_component_by_component() {
         assert!((found - wanted).abs() < 1e-12, "{law}: {found}");
     }
 }
+
+/// No law pays twice for what it says twice.
+#[test]
+fn what_is_said_twice_is_computed_once() {
+    let instructions = |law: &str| {
+        let effect = Effect::parse(&with_acceleration(law, "1"), "law.toml").unwrap();
+        effect.laws[0].1.instructions.len()
+    };
+    // A difference, a norm, a product, a quotient, a multiple of g.
+    assert_eq!(instructions("k * norm(p - camera) / norm(p - camera) * g"), 5);
+    assert_eq!(instructions("k * 2 * g / 2"), 4);
+}
