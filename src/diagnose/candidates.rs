@@ -2,10 +2,15 @@
 
 use super::FALSE_ALARM;
 use super::evidence::{Evidence, evidence};
-use super::held_out::Tangent;
-use crate::effect::{EffectRequest, catalogue};
-use crate::reconstruct::refined::{Fitted, Instance, instances, points, possible};
+use super::held_out::{HeldOut, held_out};
+use crate::effect::{EffectRequest, Hook, Scan, catalogue};
+use crate::reconstruct::refined::{Fitted, Instance, gains, instances, points, possible};
 use crate::{Result, Scene};
+
+/// Candidates that are refitted in any case, the best by score.
+const FEWEST_REFITTED: usize = 6;
+/// A candidate whose score is less than this share of the best one's isn't refitted.
+const WORTH: f64 = 0.2;
 
 /// A model with one effect more, and what speaks for it.
 #[derive(Debug, Clone)]
@@ -14,8 +19,10 @@ pub(crate) struct Candidate {
     pub(crate) evidence: Evidence,
     /// Against none: the smaller, the better; −2 ln of the odds but for a constant.
     pub(crate) bic: f64,
-    /// Root mean square of predicted positions, m, without and with the effect.
-    pub(crate) held_out_m: Option<[f64; 2]>,
+    /// How poses are predicted without and with the effect.
+    pub(crate) held_out: Option<[HeldOut; 2]>,
+    /// Whether they are predicted better with it, positions and orientations together.
+    pub(crate) predicts: bool,
 }
 
 impl Candidate {
@@ -26,8 +33,7 @@ impl Candidate {
 
     /// Whether the evidence is strong, and the effect predicts what it hasn't seen.
     pub(crate) fn stands_out(&self) -> bool {
-        let predicts = self.held_out_m.is_none_or(|[without, with]| with < without);
-        self.evidence.p_value < FALSE_ALARM && self.bic < 0.0 && predicts
+        self.evidence.p_value < FALSE_ALARM && self.bic < 0.0 && self.predicts
     }
 }
 
@@ -51,7 +57,56 @@ pub(crate) fn all_candidates(
         instance.is_of_a_moment() || !fitted.acting.iter().any(|acting| known(&acting))
     };
     all.retain(is_new);
+    // Of two clocks only the difference can be seen: body a's is the reference.
+    let is_reference_clock = |instance: &Instance| {
+        let moves_time = instance.effect.laws.iter().any(|(hook, _)| *hook == Hook::Time);
+        moves_time && scene.bodies().len() == 2 && instance.body == Some(0)
+    };
+    all.retain(|instance| !is_reference_clock(instance));
     Ok(all)
+}
+
+/// Those of `instances` that are worth a refit: by the score test they explain much of what the best
+/// does, or may by chance.
+pub(super) fn promising(
+    scene: &Scene,
+    fitted: &Fitted,
+    instances: &[Instance],
+) -> Result<Vec<Instance>> {
+    let mut tests: Vec<(Instance, Vec<f64>)> = Vec::new();
+    let mut owner = Vec::new();
+    for (index, instance) in instances.iter().enumerate() {
+        let null = instance.null();
+        match instance.scan() {
+            Some((Scan::ObservationTimes | Scan::GapTimes, place)) => {
+                for point in points(scene, instance) {
+                    let mut values = null.clone();
+                    values[place] = point;
+                    tests.push((instance.clone(), values));
+                    owner.push(index);
+                }
+            }
+            _ => {
+                tests.push((instance.clone(), null));
+                owner.push(index);
+            }
+        }
+    }
+    let gains = gains(fitted, &tests)?;
+    let mut scores = vec![f64::NEG_INFINITY; instances.len()];
+    let per_parameter = fitted.numbers().ln();
+    for ((owner, gain), (instance, _)) in owner.iter().zip(&gains).zip(&tests) {
+        let score = gain - per_parameter * instance.null().len() as f64;
+        scores[*owner] = scores[*owner].max(score);
+    }
+    let mut order: Vec<usize> = (0..instances.len()).collect();
+    order.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
+    let best = scores[order[0]];
+    let is_worth_it = |(rank, index): (usize, &usize)| {
+        rank < FEWEST_REFITTED || scores[*index] > WORTH * best.max(0.0)
+    };
+    let kept = order.iter().enumerate().filter(|(rank, index)| is_worth_it((*rank, index)));
+    Ok(kept.map(|(_, index)| instances[*index].clone()).collect())
 }
 
 /// What speaks for `with`, which has one effect more than `without`; `None` where the data don't
@@ -61,15 +116,16 @@ pub(super) fn candidate(
     without: &Fitted,
     with: Fitted,
     tried: usize,
-    tangent: Option<&Tangent>,
+    before: Option<HeldOut>,
 ) -> Option<Candidate> {
     let instance = &with.acting.last()?.instance;
     let scanned = points(scene, instance).len().max(1);
     let evidence = evidence(without, &with, scanned, tried)?;
     let bic = evidence.bic(with.numbers(), instance.is_of_a_pose().then_some(scanned));
-    let held_out_m = tangent.and_then(|before| {
-        let after = Tangent::of(&with)?;
-        Some([before.held_out_rmse_m()?, after.held_out_rmse_m()?])
+    let held_out = before.zip(held_out(&with)).map(|(before, after)| [before, after]);
+    let predicts = held_out.is_none_or(|[before, after]| {
+        let noise = without.noise.value;
+        after.in_sigma(noise) < before.in_sigma(noise)
     });
-    Some(Candidate { fitted: with, evidence, bic, held_out_m })
+    Some(Candidate { fitted: with, evidence, bic, held_out, predicts })
 }

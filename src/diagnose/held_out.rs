@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::reconstruct::refined::{Fitted, Linearised, linearised};
+use crate::scene::Noise;
 
 /// Blocks that a flight is cut into.
 const BLOCKS: usize = 3;
@@ -14,48 +15,77 @@ const BLOCKS: usize = 3;
 const UNPREDICTED: f64 = 1e-6;
 
 /// A fitted model as its tangent.
-pub(crate) struct Tangent {
+struct Tangent {
     linearised: Linearised,
     inverse: DMatrix<f64>,
-    /// Rows of each block, with σ of those that are positions.
+    /// Rows of each block.
     blocks: Vec<Vec<Row>>,
 }
 
 struct Row {
     index: usize,
-    /// m; `None` of an orientation.
-    position_std_m: Option<f64>,
+    is_position: bool,
+    /// m, or rad of an orientation.
+    std: f64,
 }
 
-/// Root mean square in m of the positions, each predicted from the poses outside its block.
-pub(crate) fn held_out_rmse_m(fitted: &Fitted) -> Option<f64> {
-    Tangent::of(fitted)?.held_out_rmse_m()
+/// How well poses are predicted from those outside their block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HeldOut {
+    /// Root mean square of the positions, m.
+    pub(crate) position_rmse_m: f64,
+    /// Root mean square of the orientations' components, rad; 0 without any.
+    orientation_rmse_rad: f64,
+    positions: f64,
+    turns: f64,
+}
+
+impl HeldOut {
+    /// Root mean square of all, in deviations of this noise.
+    pub(crate) fn in_sigma(&self, noise: Noise) -> f64 {
+        let squares = self.positions * (self.position_rmse_m / noise.position).powi(2)
+            + self.turns * (self.orientation_rmse_rad / noise.orientation).powi(2);
+        (squares / (self.positions + self.turns)).sqrt()
+    }
+}
+
+/// The prediction of a fitted model.
+pub(crate) fn held_out(fitted: &Fitted) -> Option<HeldOut> {
+    Tangent::of(fitted).map(|tangent| tangent.held_out())
 }
 
 impl Tangent {
-    pub(crate) fn of(fitted: &Fitted) -> Option<Tangent> {
+    fn of(fitted: &Fitted) -> Option<Tangent> {
         let best = fitted.best();
         let linearised = linearised(&fitted.refined, &best.solution.unknowns, best.gap).ok()?;
         let inverse = best.covariance.matrix.clone();
         Some(Tangent { linearised, inverse, blocks: blocks(fitted) })
     }
 
-    pub(crate) fn held_out_rmse_m(&self) -> Option<f64> {
-        let (mut count, mut squares) = (0.0, 0.0);
+    fn held_out(&self) -> HeldOut {
+        // Count and sum of squares.
+        let (mut positions, mut turns) = ((0.0, 0.0), (0.0, 0.0));
         for block in &self.blocks {
             let rows: Vec<usize> = block.iter().map(|row| row.index).collect();
             let jacobian = self.linearised.jacobian.select_rows(&rows);
-            let residuals =
-                DVector::from_iterator(rows.len(), rows.iter().map(|&i| self.linearised.residuals[i]));
+            let residuals = DVector::from_iterator(
+                rows.len(),
+                rows.iter().map(|&row| self.linearised.residuals[row]),
+            );
             let predicted = predicted(&jacobian, &self.inverse, &residuals);
             for (row, residual) in block.iter().zip(predicted.iter()) {
-                if let Some(std_m) = row.position_std_m {
-                    count += 1.0;
-                    squares += (std_m * residual).powi(2);
-                }
+                let channel = if row.is_position { &mut positions } else { &mut turns };
+                channel.0 += 1.0;
+                channel.1 += (row.std * residual).powi(2);
             }
         }
-        (count > 0.0).then(|| f64::sqrt(squares / count))
+        let rmse = |(count, squares): (f64, f64)| (squares / f64::max(count, 1.0)).sqrt();
+        HeldOut {
+            position_rmse_m: rmse(positions),
+            orientation_rmse_rad: rmse(turns),
+            positions: positions.0,
+            turns: turns.0,
+        }
     }
 }
 
@@ -87,8 +117,13 @@ fn blocks(fitted: &Fitted) -> Vec<Vec<Row>> {
                 for pose in poses {
                     let oriented = body.has_spin && pose.has_orientation;
                     for row in 0..if oriented { 6 } else { 3 } {
-                        let position_std_m = (row < 3).then_some(pose.position_std_m);
-                        rows.push(Row { index: index + row, position_std_m });
+                        let is_position = row < 3;
+                        let std = if is_position {
+                            pose.position_std_m
+                        } else {
+                            pose.orientation_std_rad
+                        };
+                        rows.push(Row { index: index + row, is_position, std });
                     }
                     index += if oriented { 6 } else { 3 };
                 }

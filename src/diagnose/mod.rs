@@ -20,7 +20,6 @@ pub use diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict
 
 pub(crate) use candidates::{Candidate, all_candidates};
 pub(crate) use goodness::Goodness;
-pub(crate) use held_out::held_out_rmse_m;
 
 use rayon::prelude::*;
 
@@ -58,12 +57,15 @@ pub fn diagnose(
 
 /// All candidates that can be fitted, the best explanation first.
 pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Vec<Candidate> {
-    let tangent = held_out::Tangent::of(fitted);
-    let mut candidates: Vec<Candidate> = instances
+    let before = held_out::held_out(fitted);
+    // A score test that fails leaves all to be refitted.
+    let promising =
+        candidates::promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
+    let mut candidates: Vec<Candidate> = promising
         .par_iter()
         .filter_map(|instance| {
             let with = fitted.with(scene, instance).ok()?;
-            candidates::candidate(scene, fitted, with, instances.len(), tangent.as_ref())
+            candidates::candidate(scene, fitted, with, instances.len(), before)
         })
         .collect();
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));

@@ -94,11 +94,8 @@ fn second(scene: &Scene, candidates: &[Candidate], instances: &[Instance]) -> Op
         let seconds = tried(scene, &first.fitted, instances);
         let Some(second) = seconds.iter().find(|second| second.stands_out()) else { continue };
         let explains = rest(scene, second).is_ok_and(|rest| !rest.is_structured);
-        let label = format!(
-            "{} and {}",
-            first.instance().label(scene),
-            second.instance().label(scene)
-        );
+        let label =
+            format!("{} and {}", first.instance().label(scene), second.instance().label(scene));
         pairs.push((first.bic + second.bic, label, explains));
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -126,8 +123,8 @@ fn report(
         p_value: candidate.evidence.p_value,
         probability,
         stands_out: candidate.stands_out(),
-        heldout_rmse_before: candidate.held_out_m.map(|[before, _]| before),
-        heldout_rmse_after: candidate.held_out_m.map(|[_, after]| after),
+        heldout_rmse_before: candidate.held_out.map(|[before, _]| before.position_rmse_m),
+        heldout_rmse_after: candidate.held_out.map(|[_, after]| after.position_rmse_m),
         reduced_chi2: after.fit.reduced_chi2,
         parameters: effect.map(|effect| effect.parameters).unwrap_or_default(),
         indistinguishable_from: alike

@@ -7,6 +7,7 @@ use super::fitted::Fitted;
 use super::optimum::{evaluated, information};
 use crate::Result;
 use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
+use crate::effect::Scan;
 use crate::scene::Gap;
 
 /// A model as its tangent: residuals over their deviations, and their derivatives by the unknowns;
@@ -56,8 +57,8 @@ pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Res
     let mut next = base;
     for (instance, values) in candidates {
         let acting = instance.act_on(&mut refined);
-        // What a scan goes through is held while it does.
-        if let Some((_, place)) = instance.scan() {
+        // Which moment or pose it is, is held while a scan goes through them.
+        if let Some((Scan::GapTimes | Scan::ObservationTimes, place)) = instance.scan() {
             refined.parameters[acting.first + place].held = true;
         }
         unknowns.parameters.extend(values);
@@ -82,6 +83,9 @@ pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Res
 pub(super) fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
     /// Of a column's length.
     const ROUNDING: f64 = 1e-7;
+    if columns.is_empty() {
+        return columns;
+    }
     for mut column in columns.column_iter_mut() {
         let length = column.norm();
         if length > 0.0 {

@@ -33,7 +33,7 @@ mod uncertainty;
 
 pub(crate) use self::acting::{Acting, Instance, instances, possible};
 pub(crate) use self::fitted::Fitted;
-pub(crate) use self::gain::{Linearised, linearised};
+pub(crate) use self::gain::{Linearised, gains, linearised};
 pub(crate) use self::report::reconstruction as report;
 pub(crate) use self::starts::points;
 

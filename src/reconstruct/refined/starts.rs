@@ -7,6 +7,7 @@ use super::acting::{Acting, Instance};
 use super::fitted::Fitted;
 use super::gain::{gains, linearised};
 use super::model::{has_plane, refined_scene};
+use super::optimum::Optimum;
 use super::parabolas::Parabolas;
 use super::solve::solve;
 use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
@@ -19,6 +20,8 @@ use crate::{Result, Scene};
 const MOST_OPTIMA: usize = 3;
 /// Further optima whose ½ χ² is larger by more have lost.
 const HOPELESS: f64 = 40.0;
+/// Costs that differ by less, of their size, are of one optimum.
+const SAME: f64 = 1e-5;
 /// Points of a scan that are tried.
 const MOST_POINTS: usize = 3;
 /// Delays of a time scan, in frames.
@@ -36,11 +39,13 @@ pub(super) fn starts(
 ) -> Result<Vec<Start>> {
     let null = acting.instance.null();
     let least = nested.best().solution.cost;
-    let mut starts: Vec<Start> = nested
-        .optima
-        .iter()
+    let mut optima: Vec<&Optimum> = nested.optima.iter().collect();
+    optima.retain(|optimum| optimum.solution.cost <= least + HOPELESS);
+    // Starts that led to the same.
+    optima.dedup_by(|a, b| a.solution.cost - b.solution.cost < SAME * (1.0 + least));
+    let mut starts: Vec<Start> = optima
+        .into_iter()
         .take(MOST_OPTIMA)
-        .filter(|optimum| optimum.solution.cost <= least + HOPELESS)
         .map(|optimum| (extended(&optimum.solution.unknowns, &null), optimum.gap))
         .collect();
     if let Some(plane) = scene.plane() {
@@ -175,12 +180,21 @@ fn away(refined: &RefinedScene, acting: &Acting, unknowns: &RefinedUnknowns) -> 
     away
 }
 
-/// The base model solved anew with a body's stamps moved: the delay may be more than a segment.
+/// The base model solved anew with a body's stamps moved: the delay may be more than a segment. Which
+/// delays are worth it the parabolas tell.
 fn delayed(nested: &Fitted, scene: &Scene, acting: &Acting, place: usize) -> Result<Vec<Start>> {
     let known = &nested.best().solution.unknowns.parameters;
-    let mut found: Vec<(f64, Start)> = Vec::new();
-    for delay_s in points(scene, &acting.instance) {
-        let Some(moved) = scene.delayed(acting.instance.body, -delay_s) else { continue };
+    let mut moved: Vec<(f64, f64, Scene)> = points(scene, &acting.instance)
+        .into_iter()
+        .filter_map(|delay_s| {
+            let moved = scene.delayed(acting.instance.body, -delay_s)?;
+            let squares_m2 = Parabolas::new(&moved).best_segments(1).first()?.squares_m2;
+            Some((squares_m2, delay_s, moved))
+        })
+        .collect();
+    moved.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut starts = Vec::new();
+    for (_, delay_s, moved) in moved.into_iter().take(MOST_POINTS) {
         let parabolas = Parabolas::new(&moved);
         let mut refined = refined_scene(&moved, nested.noise.value, nested.refined.tilt_std_rad);
         let Ok(solved) = solve(&mut refined, &parabolas, Some(nested.noise.value), Loss::Squares)
@@ -190,8 +204,7 @@ fn delayed(nested: &Fitted, scene: &Scene, acting: &Acting, place: usize) -> Res
         let mut unknowns = solved.optima[0].solution.unknowns.clone();
         unknowns.parameters = [known.as_slice(), &acting.instance.null()].concat();
         unknowns.parameters[acting.first + place] = delay_s;
-        found.push((solved.optima[0].solution.cost, (unknowns, solved.optima[0].gap)));
+        starts.push((unknowns, solved.optima[0].gap));
     }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(found.into_iter().take(MOST_POINTS).map(|(_, start)| start).collect())
+    Ok(starts)
 }

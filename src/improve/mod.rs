@@ -1,0 +1,72 @@
+//! The ladder: fit, diagnose, add the missing effect, and again, until nothing significant is missing.
+
+mod ladder;
+mod search;
+
+pub use ladder::{IMPROVEMENT_SCHEMA, Improvement, Rung};
+
+use crate::diagnose::{Verdict, held_out, reported};
+use crate::effect::EffectRequest;
+use crate::reconstruct::refined::{self, Fitted};
+use crate::reconstruct::RefinedOptions;
+use crate::{Result, Scene};
+
+/// Improves the model of `scene`, that of `options`, effect by effect. `further`: candidates beyond
+/// the catalogue. Effects of `options` are kept whatever the data say of them.
+///
+/// # Errors
+/// The scene can't be reconstructed, or an effect doesn't fit it.
+///
+/// # Example
+/// ```no_run
+/// let scene = smash::Scene::read("scenes/boxes.json")?;
+/// let options = smash::reconstruct::RefinedOptions::default();
+/// let improvement = smash::improve(&scene, &options, &[])?;
+/// for rung in &improvement.ladder {
+///     println!("{:?}: {:.2} mm", rung.added, 1e3 * rung.position_rmse);
+/// }
+/// # Ok::<(), smash::Error>(())
+/// ```
+pub fn improve(
+    scene: &Scene,
+    options: &RefinedOptions,
+    further: &[EffectRequest],
+) -> Result<Improvement> {
+    let base = refined::fit(scene, options)?;
+    let found = search::best_model(scene, &base, further)?;
+    let mut rungs = vec![rung(scene, None, &base)?];
+    let mut fitted = base;
+    for step in &found.steps {
+        fitted = fitted.with(scene, &step.instance)?;
+        let mut next = rung(scene, Some(step.instance.label(scene)), &fitted)?;
+        next.p_value = Some(step.p_value);
+        rungs.push(next);
+    }
+    let with: Vec<String> = found.steps.iter().map(|step| step.instance.label(scene)).collect();
+    for (index, rung) in rungs.iter_mut().enumerate() {
+        rung.with = with[..index].to_vec();
+    }
+    let verdict = match (found.is_structured, found.steps.is_empty()) {
+        (true, _) => Verdict::UnknownEffect,
+        (false, true) => Verdict::NothingMissing,
+        (false, false) => Verdict::Missing,
+    };
+    let result = reported(scene, &fitted)?;
+    Ok(Improvement::new(scene, verdict, rungs, found.dropped, result))
+}
+
+/// A rung of the ladder as it is told.
+fn rung(scene: &Scene, added: Option<String>, fitted: &Fitted) -> Result<Rung> {
+    let result = reported(scene, fitted)?;
+    Ok(Rung {
+        added,
+        with: Vec::new(),
+        p_value: None,
+        position_rmse: result.fit.position_rmse,
+        orientation_rmse: result.fit.orientation_rmse,
+        reduced_chi2: result.fit.reduced_chi2,
+        heldout_position_rmse: held_out(fitted).map(|held_out| held_out.position_rmse_m),
+        mass_ratio: result.mass_ratio.and_then(|estimate| estimate.value),
+        restitution: result.restitution.value,
+    })
+}

@@ -1,0 +1,136 @@
+//! Which set of effects explains a scene: several hypotheses climb side by side, since the best
+//! single effect of two is often neither (a further impact imitates much), and what became
+//! superfluous is dropped at the end.
+
+use crate::diagnose::{Candidate, FALSE_ALARM, Goodness, all_candidates, evidence, reported, tried};
+use crate::compare::channels;
+use crate::effect::EffectRequest;
+use crate::reconstruct::refined::{Fitted, Instance};
+use crate::{Result, Scene};
+
+/// Hypotheses that climb side by side.
+const HYPOTHESES: usize = 3;
+/// Effects that a scene of a few hundred numbers can tell.
+const MOST_EFFECTS: usize = 4;
+
+/// An effect that is added, and how often noise would seem as much.
+#[derive(Debug, Clone)]
+pub(super) struct Step {
+    pub(super) instance: Instance,
+    pub(super) p_value: f64,
+}
+
+/// The best model.
+pub(super) struct Found {
+    pub(super) steps: Vec<Step>,
+    /// Labels of effects that were added on the way and became superfluous.
+    pub(super) dropped: Vec<String>,
+    /// Whether it leaves more than noise.
+    pub(super) is_structured: bool,
+}
+
+/// A set of effects on the way up.
+#[derive(Clone)]
+struct Hypothesis {
+    fitted: Fitted,
+    steps: Vec<Step>,
+    /// Schwarz's criterion against the base; the smaller, the better.
+    bic: f64,
+}
+
+/// Climbs from `base` until no effect stands out any more.
+pub(super) fn best_model(
+    scene: &Scene,
+    base: &Fitted,
+    further: &[EffectRequest],
+) -> Result<Found> {
+    let mut best = Hypothesis { fitted: base.clone(), steps: Vec::new(), bic: 0.0 };
+    let mut climbing = vec![best.clone()];
+    for _ in 0..MOST_EFFECTS {
+        let mut next: Vec<Hypothesis> = Vec::new();
+        for hypothesis in &climbing {
+            let instances = all_candidates(scene, &hypothesis.fitted, further)?;
+            let candidates = tried(scene, &hypothesis.fitted, &instances);
+            let good = candidates.into_iter().filter(Candidate::stands_out).take(HYPOTHESES);
+            next.extend(good.map(|candidate| hypothesis.extended(candidate)));
+        }
+        next.sort_by(|a, b| a.bic.total_cmp(&b.bic));
+        next.dedup_by(|a, b| a.is_same_set(b, scene));
+        next.truncate(HYPOTHESES);
+        let Some(first) = next.first() else { break };
+        if first.bic >= best.bic {
+            break;
+        }
+        best = first.clone();
+        // To the noise and no further: others could only add what isn't needed.
+        if !is_structured(scene, &best.fitted)? {
+            let rest = all_candidates(scene, &best.fitted, further)?;
+            let more = tried(scene, &best.fitted, &rest).into_iter().find(Candidate::stands_out);
+            let Some(candidate) = more else { break };
+            next = vec![best.clone(), best.extended(candidate)];
+            best = next[1].clone();
+            next.remove(0);
+        }
+        climbing = next;
+    }
+    let (best, dropped) = without_superfluous(scene, base, best)?;
+    let is_structured = is_structured(scene, &best.fitted)?;
+    Ok(Found { steps: best.steps, dropped, is_structured })
+}
+
+impl Hypothesis {
+    fn extended(&self, candidate: Candidate) -> Hypothesis {
+        let mut steps = self.steps.clone();
+        let p_value = candidate.evidence.p_value;
+        steps.push(Step { instance: candidate.instance().clone(), p_value });
+        Hypothesis { bic: self.bic + candidate.bic, fitted: candidate.fitted, steps }
+    }
+
+    fn is_same_set(&self, other: &Hypothesis, scene: &Scene) -> bool {
+        let labels = |hypothesis: &Hypothesis| {
+            let mut labels: Vec<String> =
+                hypothesis.steps.iter().map(|step| step.instance.label(scene)).collect();
+            labels.sort();
+            labels
+        };
+        labels(self) == labels(other)
+    }
+}
+
+/// Whether a fit leaves more than noise.
+fn is_structured(scene: &Scene, fitted: &Fitted) -> Result<bool> {
+    let channels = match fitted.has_stated_noise() {
+        true => Vec::new(),
+        false => channels(scene, &reported(scene, fitted)?)?,
+    };
+    Ok(Goodness::of(fitted, &channels).is_structured)
+}
+
+/// Leaves out each effect that the others explain by now, the earliest first.
+fn without_superfluous(
+    scene: &Scene,
+    base: &Fitted,
+    mut best: Hypothesis,
+) -> Result<(Hypothesis, Vec<String>)> {
+    let mut dropped = Vec::new();
+    let mut index = 0;
+    while best.steps.len() > 1 && index < best.steps.len() {
+        let mut others = best.steps.clone();
+        let left_out = others.remove(index);
+        let mut without = base.clone();
+        for step in &others {
+            without = without.with(scene, &step.instance)?;
+        }
+        let with = without.with(scene, &left_out.instance)?;
+        let tried = all_candidates(scene, &without, &[])?.len();
+        let is_needed = evidence(&without, &with, 1, tried)
+            .is_some_and(|evidence| evidence.p_value < FALSE_ALARM);
+        if is_needed {
+            index += 1;
+        } else {
+            dropped.push(left_out.instance.label(scene));
+            best = Hypothesis { fitted: without, steps: others, bic: best.bic };
+        }
+    }
+    Ok((best, dropped))
+}
