@@ -5,6 +5,7 @@ use schemars::generate::SchemaSettings;
 use crate::compare::Comparison;
 use crate::diagnose::Diagnosis;
 use crate::effect::file::EffectFile;
+use crate::improve::Improvement;
 use crate::json::pretty;
 use crate::reconstruct::Reconstruction;
 use crate::scene::SceneFile;
@@ -22,6 +23,8 @@ pub enum SchemaKind {
     Comparison,
     /// Which effect the model lacks: `smash.diagnosis/1`
     Diagnosis,
+    /// A ladder of effects: `smash.improvement/1`
+    Improvement,
     /// A law that the base model lacks (TOML)
     Effect,
     /// What to simulate: `smash.simulation/1`
@@ -41,6 +44,7 @@ pub fn schema(kind: SchemaKind) -> String {
         SchemaKind::Result => generator.into_root_schema_for::<Reconstruction>(),
         SchemaKind::Comparison => generator.into_root_schema_for::<Comparison>(),
         SchemaKind::Diagnosis => generator.into_root_schema_for::<Diagnosis>(),
+        SchemaKind::Improvement => generator.into_root_schema_for::<Improvement>(),
         SchemaKind::Effect => generator.into_root_schema_for::<EffectFile>(),
         SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),
         SchemaKind::Truth => generator.into_root_schema_for::<Truth>(),

@@ -7,6 +7,7 @@ mod diagnose;
 mod doctor;
 mod effects;
 mod import;
+mod improve;
 mod method;
 mod progress;
 mod reconstruct;
@@ -36,6 +37,7 @@ enum Command {
     Batch(batch::Arguments),
     Compare(compare::Arguments),
     Diagnose(diagnose::Arguments),
+    Improve(improve::Arguments),
     Effects(effects::Arguments),
     Import(import::Arguments),
     Simulate(simulate::Arguments),
@@ -52,6 +54,7 @@ pub fn main() -> ExitCode {
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
+        Command::Improve(arguments) => improve::run(&arguments),
         Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

@@ -19,7 +19,9 @@ mod words;
 pub use diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 
 pub(crate) use candidates::{Candidate, all_candidates};
+pub(crate) use evidence::evidence;
 pub(crate) use goodness::Goodness;
+pub(crate) use held_out::held_out;
 
 use rayon::prelude::*;
 

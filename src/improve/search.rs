@@ -62,14 +62,9 @@ pub(super) fn best_model(
             break;
         }
         best = first.clone();
-        // To the noise and no further: others could only add what isn't needed.
+        // Once one is down to the noise, only it climbs on.
         if !is_structured(scene, &best.fitted)? {
-            let rest = all_candidates(scene, &best.fitted, further)?;
-            let more = tried(scene, &best.fitted, &rest).into_iter().find(Candidate::stands_out);
-            let Some(candidate) = more else { break };
-            next = vec![best.clone(), best.extended(candidate)];
-            best = next[1].clone();
-            next.remove(0);
+            next.truncate(1);
         }
         climbing = next;
     }
