@@ -22,6 +22,7 @@ fn main() {
         ["flight_reference", "paper", "refined"].map(|name| format!("src/bridge/{name}.rs")),
     );
     build
+        .file("cpp/acting_effects.cc")
         .file("cpp/bridge.cc")
         .file("cpp/flight_fits.cc")
         .file("cpp/flight_reference.cc")

@@ -38,6 +38,9 @@ RefinedBlocks::RefinedBlocks(const RefinedScene& scene, const RefinedProblem& pr
   offset = Place({0.0, 0.0}, 2, AnySpin(scene));
   log_mass =
       Place({start.log_mass_ratio}, 1, scene.bodies.size() == 2 && !problem.hold.log_mass_ratio);
+  for (std::size_t i = 0; i < start.parameters.size(); ++i) {
+    parameters.push_back(Place({start.parameters[i]}, 1, !scene.parameters[i].held));
+  }
 }
 
 Block RefinedBlocks::Place(std::vector<double> values, int tangent_size, bool is_free) {
@@ -54,9 +57,17 @@ std::vector<Block*> RefinedBlocks::OfFlight(std::size_t body, bool is_after) {
   return blocks;
 }
 
-std::vector<double*> RefinedBlocks::ValuesOfFlight(std::size_t body, bool is_after) {
+std::vector<Block*> RefinedBlocks::OfEffectFlight(std::size_t body, bool is_after,
+                                                  const std::vector<std::size_t>& used) {
+  std::vector<Block*> blocks = OfFlight(body, is_after);
+  if (body > 0 && !is_after) blocks.push_back(&log_mass);
+  for (const std::size_t parameter : used) blocks.push_back(&parameters[parameter]);
+  return blocks;
+}
+
+std::vector<double*> ValuesOf(const std::vector<Block*>& blocks) {
   std::vector<double*> values;
-  for (Block* block : OfFlight(body, is_after)) values.push_back(block->values.data());
+  for (Block* block : blocks) values.push_back(block->values.data());
   return values;
 }
 
@@ -85,6 +96,9 @@ RefinedUnknowns RefinedBlocks::Unknowns() const {
     unknowns.contact_basis[1][i] = contact.contact_basis(i, 1);
   }
   unknowns.log_mass_ratio = log_mass.values[0];
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    unknowns.parameters[i] = parameters[i].values[0];
+  }
   return unknowns;
 }
 

@@ -25,15 +25,19 @@ struct BodyBlocks {
 struct RefinedBlocks {
   RefinedBlocks(const RefinedScene& scene, const RefinedProblem& problem);
 
-  // Of a flight, in the order of FlightBlock.
+  // Of a flight without effects, in the order of FlightBlock.
   std::vector<Block*> OfFlight(std::size_t body, bool is_after);
-  std::vector<double*> ValuesOfFlight(std::size_t body, bool is_after);
+  // Of a flight with effects, whose parameters are these, in the order of EffectBlocks.
+  std::vector<Block*> OfEffectFlight(std::size_t body, bool is_after,
+                                     const std::vector<std::size_t>& used);
   // What the numbers stand for.
   RefinedUnknowns Unknowns() const;
 
   ContactFrame contact;
   std::vector<BodyBlocks> bodies;
   Block time, tilt, impulse, offset, log_mass;
+  // Of the effects, one for each scalar.
+  std::vector<Block> parameters;
   // Of the information.
   int size = 0;
 
@@ -42,6 +46,9 @@ struct RefinedBlocks {
 
   RefinedUnknowns start_;
 };
+
+// Where the blocks' numbers are.
+std::vector<double*> ValuesOf(const std::vector<Block*>& blocks);
 
 // The few numbers that stand for the impulse and the contact point, from where `unknowns` has them.
 ContactFrame ContactFrameOf(const RefinedScene& scene, const RefinedUnknowns& unknowns);

@@ -7,8 +7,10 @@
 
 namespace smash {
 
+struct FlownState;
 struct Jump;
 struct JumpFit;
+struct RefinedLaunch;
 struct RefinedProblem;
 struct RefinedScene;
 struct RefinedSolution;
@@ -17,6 +19,13 @@ struct SpinFit;
 struct SpinFlight;
 
 RefinedSolution solve_refined(const RefinedScene& scene, const RefinedProblem& problem);
+
+rust::Vec<RefinedLaunch> launch(const RefinedScene& scene, const RefinedUnknowns& unknowns);
+
+rust::Vec<double> pose_times(const RefinedScene& scene, const RefinedUnknowns& unknowns);
+
+rust::Vec<FlownState> fly(const RefinedScene& scene, const RefinedUnknowns& unknowns,
+                          std::size_t body, rust::Slice<const double> stamps_s);
 
 SpinFit fit_spin(const SpinFlight& flight);
 

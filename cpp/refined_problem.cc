@@ -1,5 +1,6 @@
 #include "refined_problem.h"
 
+#include <ceres/dynamic_autodiff_cost_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -9,8 +10,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "acting_effects.h"
 #include "ceres_compat.h"
 #include "functors/contact_prior.h"
+#include "functors/effect_flight.h"
 #include "functors/restitution.h"
 #include "functors/tilt_prior.h"
 #include "refined_summary.h"
@@ -22,10 +25,23 @@ namespace {
 // Radians a step, at the body's fastest.
 constexpr double kLargestStepRad = 0.12;
 
+// Of an effect's flight, whose position needs steps too: with these the integrator's error is some
+// 1e-6 rad and less.
+constexpr double kEffectStepRad = 0.25;
+constexpr double kEffectStepS = 0.02;
+// An integrator's error larger than this share of a deviation could be taken for physics.
+constexpr double kLargestError = 0.02;
+constexpr int kFinest = 16;
+
 class RefinedFit {
  public:
-  RefinedFit(const RefinedScene& scene, const RefinedProblem& problem)
-      : scene_(scene), problem_(problem), blocks_(scene, problem) {
+  // `fineness`: how many times finer than usual effects' flights are integrated.
+  RefinedFit(const RefinedScene& scene, const RefinedProblem& problem, int fineness)
+      : scene_(scene),
+        problem_(problem),
+        fineness_(fineness),
+        blocks_(scene, problem),
+        effects_(EffectBodies(scene)) {
     AddFlights();
     if (scene_.gravity_m_s2 > 0) {
       ceres_.AddResidualBlock(TiltPriorFunctor::Create(scene_.tilt_std_rad), nullptr,
@@ -40,7 +56,7 @@ class RefinedFit {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.num_threads = 1;
-    options.max_num_iterations = 50;
+    options.max_num_iterations = static_cast<int>(problem_.most_iterations);
     options.function_tolerance = 1e-8;
     options.gradient_tolerance = 1e-14;
     options.parameter_tolerance = 1e-12;
@@ -58,67 +74,135 @@ class RefinedFit {
     solution.cost_initial = summary.initial_cost;
     solution.iterations = static_cast<std::uint32_t>(summary.iterations.size()) - 1;
     solution.converged = summary.termination_type == ceres::CONVERGENCE;
-    Summarise(scene_, flights_, blocks_, solution);
+    Summarise(scene_, flights_, blocks_, problem_.with_jacobian, solution);
     return solution;
+  }
+
+  // How much residuals of effects' flights change when they are integrated twice as finely, in
+  // their deviations.
+  double IntegrationError() const {
+    double largest = 0.0;
+    for (const Flight& flight : flights_) {
+      if (!HasEffects(flight.body, flight.is_after)) continue;
+      const std::vector<double*> values = ValuesOf(flight.blocks);
+      const std::vector<int> steps = EffectSteps(flight, fineness_);
+      std::vector<int> finer = steps;
+      for (int& count : finer) count *= 2;
+      const Eigen::VectorXd difference =
+          ResidualsOf(flight, steps, values) - ResidualsOf(flight, finer, values);
+      largest = std::max(largest, difference.lpNorm<Eigen::Infinity>());
+    }
+    return largest;
   }
 
   // Whether a body turns much faster than at the start, so that its steps are too long.
   bool IsTooCoarse(const RefinedUnknowns& unknowns) const {
     for (const Flight& flight : flights_) {
-      const double used_s = StepOf(flight.body, flight.is_after, problem_.start);
-      if (StepOf(flight.body, flight.is_after, unknowns) < 0.7 * used_s) return true;
+      const double used = FastestSpin(flight.body, flight.is_after, problem_.start);
+      if (0.7 * FastestSpin(flight.body, flight.is_after, unknowns) > used) return true;
     }
     return false;
   }
 
-  template <typename Visit>
-  void VisitFlights(const Visit& visit) {
-    for (const Flight& flight : flights_) {
-      visit(*flight.cost, blocks_.ValuesOfFlight(flight.body, flight.is_after));
-    }
-  }
+  const std::vector<Flight>& flights() const { return flights_; }
 
  private:
   bool has_spin(std::size_t body) const { return scene_.bodies[body].has_spin; }
 
   void AddFlights() {
-    const TiltedGravity gravity{scene_.gravity_m_s2, ToVector3(scene_.down), Across()};
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const RefinedBody& body = scene_.bodies[i];
-      const auto split =
-          std::partition_point(body.poses.begin(), body.poses.end(), [&](const RefinedPose& pose) {
-            return 2.0 * pose.time_s < problem_.earliest_s + problem_.latest_s;
-          });
+      const std::vector<double> times_s = PoseTimes(scene_, effects_[i], i, problem_.start);
       std::vector<FlightPose> before, after;
-      for (auto pose = split; pose != body.poses.begin();) before.push_back(ToFlightPose(*--pose));
-      for (auto pose = split; pose != body.poses.end(); ++pose) {
-        after.push_back(ToFlightPose(*pose));
+      for (std::size_t k = 0; k < times_s.size(); ++k) {
+        const bool is_before = 2.0 * times_s[k] < problem_.earliest_s + problem_.latest_s;
+        (is_before ? before : after).push_back(ToFlightPose(body.poses[k]));
       }
-      AddFlight(i, false, gravity, std::move(before));
-      AddFlight(i, true, gravity, std::move(after));
+      std::reverse(before.begin(), before.end());
+      AddFlight(i, false, std::move(before));
+      AddFlight(i, true, std::move(after));
     }
   }
 
-  void AddFlight(std::size_t index, bool is_after, const TiltedGravity& gravity,
-                 std::vector<FlightPose> poses) {
+  bool HasEffects(std::size_t body, bool is_after) const {
+    return is_after ? effects_[body].HasAny() : effects_[body].HasBeyondStrike();
+  }
+
+  void AddFlight(std::size_t index, bool is_after, std::vector<FlightPose> poses) {
     if (poses.empty()) return;
-    const RefinedBody& body = scene_.bodies[index];
-    const Vector3<double> inertia = ToVector3(body.inertia_per_mass);
-    const double step_s = StepOf(index, is_after, problem_.start);
+    Flight flight{index, is_after, nullptr, std::move(poses), {}};
+    if (HasEffects(index, is_after)) {
+      flight.blocks = blocks_.OfEffectFlight(index, is_after, effects_[index].used_parameters);
+      flight.cost = EffectCost(flight);
+    } else {
+      flight.blocks = blocks_.OfFlight(index, is_after);
+      flight.cost = PlainCost(flight);
+    }
+    ceres_.AddResidualBlock(flight.cost, nullptr, ValuesOf(flight.blocks));
+    flights_.push_back(std::move(flight));
+  }
+
+  ceres::CostFunction* PlainCost(const Flight& flight) const {
+    const RefinedBody& body = scene_.bodies[flight.body];
+    const double step_s =
+        kLargestStepRad / FastestSpin(flight.body, flight.is_after, problem_.start);
     std::vector<int> pairs;
-    double reached_s = is_after ? problem_.earliest_s : problem_.latest_s;
-    for (const FlightPose& pose : poses) {
+    double reached_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
+    for (const FlightPose& pose : flight.poses) {
       pairs.push_back(FreeRotation::Pairs(pose.time_s - reached_s, step_s));
       reached_s = pose.time_s;
     }
-    auto* cost = new FlightCost({inertia, body.has_spin, index == 0}, is_after, gravity,
-                                blocks_.contact, std::move(poses), std::move(pairs));
-    ceres_.AddResidualBlock(cost, nullptr, blocks_.ValuesOfFlight(index, is_after));
-    flights_.push_back({index, is_after, cost});
+    return new FlightCost({ToVector3(body.inertia_per_mass), body.has_spin, flight.body == 0},
+                          flight.is_after, Gravity(), blocks_.contact, flight.poses,
+                          std::move(pairs));
   }
 
-  // The longest step of a flight that starts as `unknowns` say.
-  double StepOf(std::size_t index, bool is_after, const RefinedUnknowns& unknowns) const {
+  ceres::CostFunction* EffectCost(const Flight& flight) const {
+    auto functor = std::make_unique<EffectFlight>(effects_[flight.body].body, flight.is_after,
+                                                  Gravity(), blocks_.contact, flight.poses,
+                                                  EffectSteps(flight, fineness_));
+    // One pass takes so many derivatives.
+    if (flight.blocks.size() <= 8) return DynamicCost<20>(std::move(functor), flight);
+    return DynamicCost<28>(std::move(functor), flight);
+  }
+
+  template <int kStride>
+  ceres::CostFunction* DynamicCost(std::unique_ptr<EffectFlight> functor,
+                                   const Flight& flight) const {
+    auto* cost = new ceres::DynamicAutoDiffCostFunction<EffectFlight, kStride>(functor.release());
+    for (const Block* block : flight.blocks) {
+      cost->AddParameterBlock(static_cast<int>(block->values.size()));
+    }
+    int residuals = 0;
+    for (const FlightPose& pose : flight.poses) residuals += flight.Rows(scene_, pose);
+    cost->SetNumResiduals(residuals);
+    return cost;
+  }
+
+  std::vector<int> EffectSteps(const Flight& flight, int fineness) const {
+    const double fastest = FastestSpin(flight.body, flight.is_after, problem_.start);
+    const double step_s = std::min(kEffectStepRad / fastest, kEffectStepS) / fineness;
+    std::vector<int> steps;
+    double reached_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
+    for (const FlightPose& pose : flight.poses) {
+      const double count = std::ceil(std::abs(pose.time_s - reached_s) / step_s);
+      steps.push_back(std::max(1, static_cast<int>(std::min(count, 1e6))));
+      reached_s = pose.time_s;
+    }
+    return steps;
+  }
+
+  Eigen::VectorXd ResidualsOf(const Flight& flight, const std::vector<int>& steps,
+                              const std::vector<double*>& values) const {
+    const EffectFlight functor(effects_[flight.body].body, flight.is_after, Gravity(),
+                               blocks_.contact, flight.poses, steps);
+    Eigen::VectorXd residuals(flight.cost->num_residuals());
+    functor(values.data(), residuals.data());
+    return residuals;
+  }
+
+  // rad/s, at the most, of a flight that starts as `unknowns` say.
+  double FastestSpin(std::size_t index, bool is_after, const RefinedUnknowns& unknowns) const {
     const RefinedMotion& motion = unknowns.bodies[index];
     Vector3<double> spin = ToVector3(motion.spin_before);
     if (is_after) {
@@ -126,8 +210,8 @@ class RefinedFit {
       const Vector3<double> lever = ToVector3(unknowns.contact_point) - ToVector3(motion.position);
       spin += push * lever.cross(ToVector3(unknowns.impulse));
     }
-    return LongestStep(ToVector3(scene_.bodies[index].inertia_per_mass),
-                       ToQuaternion(motion.orientation), spin);
+    return smash::FastestSpin(ToVector3(scene_.bodies[index].inertia_per_mass),
+                              ToQuaternion(motion.orientation), spin);
   }
 
   void AddContactPriors() {
@@ -172,10 +256,15 @@ class RefinedFit {
       ceres_.SetParameterBlockConstant(q);
     }
     for (Block* block : {&blocks_.time, &blocks_.tilt, &blocks_.offset, &blocks_.log_mass}) {
-      double* values = block->values.data();
-      if (block->place < 0 && ceres_.HasParameterBlock(values)) {
-        ceres_.SetParameterBlockConstant(values);
-      }
+      HoldIfPlaceless(*block);
+    }
+    for (std::size_t i = 0; i < blocks_.parameters.size(); ++i) {
+      Block& block = blocks_.parameters[i];
+      double* value = block.values.data();
+      HoldIfPlaceless(block);
+      if (block.place < 0 || !ceres_.HasParameterBlock(value)) continue;
+      ceres_.SetParameterLowerBound(value, 0, scene_.parameters[i].low);
+      ceres_.SetParameterUpperBound(value, 0, scene_.parameters[i].high);
     }
     if (blocks_.log_mass.place >= 0 && ceres_.HasParameterBlock(blocks_.log_mass.values.data())) {
       ceres_.SetParameterLowerBound(blocks_.log_mass.values.data(), 0, -kLargestLogMassRatio);
@@ -186,28 +275,37 @@ class RefinedFit {
     ceres_.SetParameterUpperBound(blocks_.time.values.data(), 0, problem_.latest_s);
   }
 
-  Eigen::Matrix<double, 3, 2> Across() const {
-    Eigen::Matrix<double, 3, 2> across;
-    across << ToVector3(scene_.across[0]), ToVector3(scene_.across[1]);
-    return across;
+  void HoldIfPlaceless(Block& block) {
+    double* values = block.values.data();
+    if (block.place < 0 && ceres_.HasParameterBlock(values)) {
+      ceres_.SetParameterBlockConstant(values);
+    }
   }
+
+  TiltedGravity Gravity() const { return GravityOf(scene_); }
 
   const RefinedScene& scene_;
   const RefinedProblem& problem_;
+  int fineness_;
   RefinedBlocks blocks_;
+  std::vector<ActingEffects> effects_;
   std::vector<Flight> flights_;
   ceres::Problem ceres_;
 };
 
 }  // namespace
 
-double LongestStep(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
+double FastestSpin(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
                    const Vector3<double>& l) {
   // The energy l.omega is constant: omega^2 is at most l.omega / I_min.
   const Vector3<double> omega =
       AngularVelocity(q, l, Vector3<double>(inertia_per_mass.cwiseInverse()));
-  const double fastest = std::sqrt(std::max(0.0, l.dot(omega)) / inertia_per_mass.minCoeff());
-  return kLargestStepRad / std::max(fastest, 1e-6);
+  return std::max(1e-6, std::sqrt(std::max(0.0, l.dot(omega)) / inertia_per_mass.minCoeff()));
+}
+
+double LongestStep(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
+                   const Vector3<double>& l) {
+  return kLargestStepRad / FastestSpin(inertia_per_mass, q, l);
 }
 
 FlightPose ToFlightPose(const RefinedPose& pose) {
@@ -220,19 +318,34 @@ FlightPose ToFlightPose(const RefinedPose& pose) {
 }
 
 RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& problem) {
-  RefinedFit fit(scene, problem);
-  RefinedSolution solution = fit.Solve();
-  // The steps were chosen by the start's spins.
-  if (!fit.IsTooCoarse(solution.unknowns)) return solution;
-  RefinedProblem again = problem;
-  again.start = solution.unknowns;
-  return RefinedFit(scene, again).Solve();
+  int fineness = 1;
+  RefinedProblem from = problem;
+  bool is_first = true;
+  double cost_initial = 0.0;
+  for (;;) {
+    RefinedFit fit(scene, from, fineness);
+    RefinedSolution solution = fit.Solve();
+    if (is_first) cost_initial = solution.cost_initial;
+    solution.cost_initial = cost_initial;
+    // The steps were chosen by the start's spins.
+    const bool is_coarse = is_first && fit.IsTooCoarse(solution.unknowns);
+    const bool is_inexact = fit.IntegrationError() > kLargestError;
+    if (!is_coarse && !is_inexact) return solution;
+    if (is_inexact && (fineness *= 2) > kFinest) {
+      throw std::runtime_error("an effect's law changes too fast along the flight");
+    }
+    is_first = false;
+    from.start = solution.unknowns;
+  }
 }
 
 void VisitFlights(
     const RefinedScene& scene, const RefinedProblem& problem,
     const std::function<void(const FlightCost&, const std::vector<double*>&)>& visit) {
-  RefinedFit(scene, problem).VisitFlights(visit);
+  RefinedFit fit(scene, problem, 1);
+  for (const Flight& flight : fit.flights()) {
+    visit(dynamic_cast<const FlightCost&>(*flight.cost), ValuesOf(flight.blocks));
+  }
 }
 
 }  // namespace smash

@@ -13,27 +13,29 @@ void Accumulate(const Rows& rows, MatrixX& information) {
 }
 
 void Copy(const MatrixX& from, rust::Vec<double>& to) {
-  to.reserve(static_cast<std::size_t>(from.size()));
+  to.reserve(to.size() + static_cast<std::size_t>(from.size()));
   for (Eigen::Index i = 0; i < from.size(); ++i) to.push_back(from.data()[i]);
 }
 
 // The flight's derivatives by all unknowns, orientations as turns in the world.
-MatrixX TangentJacobian(const RefinedScene& scene, const Flight& flight, RefinedBlocks& all,
+MatrixX TangentJacobian(const RefinedScene& scene, const Flight& flight, const RefinedBlocks& all,
                         Eigen::VectorXd& residuals) {
-  const std::vector<Block*> blocks = all.OfFlight(flight.body, flight.is_after);
   const auto rows = residuals.size();
   std::vector<MatrixX> ambient;
   std::vector<double*> jacobians;
-  for (const Block* block : blocks) {
+  for (const Block* block : flight.blocks) {
     ambient.emplace_back(rows, static_cast<Eigen::Index>(block->values.size()));
   }
-  for (MatrixX& matrix : ambient) jacobians.push_back(matrix.data());
-  const std::vector<double*> values = all.ValuesOfFlight(flight.body, flight.is_after);
+  for (std::size_t i = 0; i < ambient.size(); ++i) {
+    const bool counts = flight.blocks[i]->place >= 0;
+    jacobians.push_back(counts ? ambient[i].data() : nullptr);
+  }
   if (!scene.bodies[flight.body].has_spin) jacobians[kOrientation] = nullptr;
+  const std::vector<double*> values = ValuesOf(flight.blocks);
   flight.cost->Evaluate(values.data(), residuals.data(), jacobians.data());
   MatrixX jacobian = MatrixX::Zero(rows, all.size);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const Block& block = *blocks[i];
+  for (std::size_t i = 0; i < flight.blocks.size(); ++i) {
+    const Block& block = *flight.blocks[i];
     if (block.place < 0) continue;
     auto target = jacobian.middleCols(block.place, block.tangent_size);
     if (i == kOrientation) {
@@ -63,36 +65,48 @@ MatrixX Prior(const RefinedScene& scene, const RefinedBlocks& blocks, double& ch
 
 }  // namespace
 
-void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights, RefinedBlocks& blocks,
-               RefinedSolution& solution) {
+void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights,
+               const RefinedBlocks& blocks, bool with_jacobian, RefinedSolution& solution) {
   MatrixX position = MatrixX::Zero(blocks.size, blocks.size);
   MatrixX orientation = MatrixX::Zero(blocks.size, blocks.size);
   double chi2 = 0.0;
-  std::vector<std::vector<RefinedResidual>> before(blocks.bodies.size()),
-      after(blocks.bodies.size());
+  // A pose's residual and its rows of the Jacobian.
+  struct Seen {
+    RefinedResidual residual;
+    MatrixX rows;
+  };
+  std::vector<std::vector<Seen>> before(blocks.bodies.size()), after(blocks.bodies.size());
   for (const Flight& flight : flights) {
     Eigen::VectorXd residuals(flight.cost->num_residuals());
     const MatrixX jacobian = TangentJacobian(scene, flight, blocks, residuals);
     chi2 += residuals.squaredNorm();
     int row = 0;
-    for (const FlightPose& pose : flight.cost->poses()) {
+    for (const FlightPose& pose : flight.poses) {
+      const int count = flight.Rows(scene, pose);
       Accumulate(jacobian.middleRows(row, 3), position);
-      RefinedResidual residual{};
-      for (int i = 0; i < 3; ++i) residual.position_m[i] = residuals[row + i] * pose.position_std_m;
-      if (flight.cost->Rows(pose) == 6) {
+      Seen seen{};
+      for (int i = 0; i < 3; ++i) {
+        seen.residual.position_m[i] = residuals[row + i] * pose.position_std_m;
+      }
+      if (count == 6) {
         Accumulate(jacobian.middleRows(row + 3, 3), orientation);
         for (int i = 0; i < 3; ++i) {
-          residual.turn_rad[i] = residuals[row + 3 + i] * pose.orientation_std_rad;
+          seen.residual.turn_rad[i] = residuals[row + 3 + i] * pose.orientation_std_rad;
         }
       }
-      (flight.is_after ? after : before)[flight.body].push_back(residual);
-      row += flight.cost->Rows(pose);
+      if (with_jacobian) seen.rows = jacobian.middleRows(row, count);
+      (flight.is_after ? after : before)[flight.body].push_back(std::move(seen));
+      row += count;
     }
   }
+  const auto push = [&](const Seen& seen) {
+    solution.residuals.push_back(seen.residual);
+    Copy(seen.rows, solution.jacobian);
+  };
   for (std::size_t i = 0; i < blocks.bodies.size(); ++i) {
     // A flight before the collision is kept outwards from it: backwards in time.
-    for (auto r = before[i].rbegin(); r != before[i].rend(); ++r) solution.residuals.push_back(*r);
-    for (const RefinedResidual& r : after[i]) solution.residuals.push_back(r);
+    for (auto r = before[i].rbegin(); r != before[i].rend(); ++r) push(*r);
+    for (const Seen& seen : after[i]) push(seen);
   }
   const MatrixX prior = Prior(scene, blocks, chi2);
   solution.cost = 0.5 * chi2;

@@ -10,11 +10,19 @@ struct Flight {
   std::size_t body;
   bool is_after;
   // Owned by the ceres::Problem.
-  FlightCost* cost;
+  ceres::CostFunction* cost;
+  // Outwards from the collision.
+  std::vector<FlightPose> poses;
+  std::vector<Block*> blocks;
+
+  // How many residuals a pose has.
+  int Rows(const RefinedScene& scene, const FlightPose& pose) const {
+    return scene.bodies[body].has_spin && pose.has_orientation ? 6 : 3;
+  }
 };
 
-// Fills them into `solution`, from one evaluation of each flight.
-void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights, RefinedBlocks& blocks,
-               RefinedSolution& solution);
+// Fills them into `solution`, from one evaluation of each flight; the Jacobian only if asked for.
+void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights,
+               const RefinedBlocks& blocks, bool with_jacobian, RefinedSolution& solution);
 
 }  // namespace smash

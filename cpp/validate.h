@@ -28,6 +28,9 @@ void CheckDuration(double frames);
 
 // As CheckPaperInput, for the refined solver and its parts.
 void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& problem);
+void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns);
+void CheckFlown(const RefinedScene& scene, const RefinedUnknowns& unknowns, std::size_t body,
+                rust::Slice<const double> stamps_s);
 void CheckSpinFlight(const SpinFlight& flight);
 void CheckJumps(const RefinedScene& scene, rust::Slice<const Jump> jumps,
                 const RefinedUnknowns& start);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/law.h"
 #include "dynamics/vector.h"
 #include "validate.h"
 
@@ -36,6 +37,36 @@ void CheckTurning(const std::array<double, 3>& inertia_per_mass, double spin, do
   }
 }
 
+// A register beyond its law's would be memory of somebody else's.
+void CheckLaw(const RefinedScene& scene, const ActingLaw& law, std::size_t parameters) {
+  if (law.body >= scene.bodies.size() || law.hook >= kHooks || !std::isfinite(law.sign)) {
+    Refuse("a law on no body or of no kind");
+  }
+  if (law.first_parameter > parameters || law.parameter_count > parameters - law.first_parameter ||
+      kInputs + law.parameter_count > law.registers) {
+    Refuse("a law with too few parameters");
+  }
+  const auto check = [&](int place, int size) {
+    if (place + size > law.registers) Refuse("a law reads a register that it hasn't got");
+  };
+  const auto hook = static_cast<Hook>(law.hook);
+  check(law.result, hook == Hook::kTime || hook == Hook::kEventTime ? 1 : 3);
+  for (const LawInstruction& i : law.instructions) {
+    if (i.operation >= static_cast<std::uint8_t>(Operation::kEnd)) {
+      Refuse("a law with an unknown operation");
+    }
+    const OperandSizes sizes = SizesOf(static_cast<Operation>(i.operation));
+    check(i.target, sizes.target);
+    check(i.left, sizes.left);
+    check(i.right, sizes.right);
+    if (i.target < kInputs + law.parameter_count || !std::isfinite(i.value)) {
+      Refuse("a law that writes over what it is given");
+    }
+  }
+}
+
+}  // namespace
+
 void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns) {
   if (scene.bodies.empty() || scene.bodies.size() > 2) Refuse("there must be one or two bodies");
   if (unknowns.bodies.size() != scene.bodies.size()) Refuse("unknowns and bodies differ in number");
@@ -47,23 +78,41 @@ void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns) {
   }
   if (!AllFinite(unknowns.tilt) || !AllFinite(unknowns.impulse) ||
       !AllFinite(unknowns.contact_point) ||
-      !(std::abs(unknowns.log_mass_ratio) <= kLargestLogMassRatio)) {
+      // Derivatives step beyond the bound.
+      !(std::abs(unknowns.log_mass_ratio) <= kLargestLogMassRatio + 1)) {
     Refuse("a start that isn't finite");
   }
   const bool has_plane = scene.plane_normal != std::array<double, 3>{};
   if (has_plane && !IsUnit(scene.plane_normal)) Refuse("a plane's normal isn't of length 1");
-}
-
-}  // namespace
-
-void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& problem) {
-  CheckUnknowns(scene, problem.start);
   if (!(scene.gravity_m_s2 >= 0 && std::isfinite(scene.gravity_m_s2)) ||
       !IsPositive(scene.tilt_std_rad)) {
     Refuse("gravity is negative or not finite, or its tilt's deviation isn't positive");
   }
   if (!IsUnit(scene.down) || !IsUnit(scene.across[0]) || !IsUnit(scene.across[1])) {
     Refuse("an axis of gravity isn't of length 1");
+  }
+  if (!AllFinite(scene.camera)) Refuse("a camera that isn't finite");
+  for (const RefinedBody& body : scene.bodies) {
+    CheckInertia(body.inertia_per_mass);
+    if (!AllFinite(body.size)) Refuse("a size that isn't finite");
+  }
+  for (const double parameter : unknowns.parameters) {
+    if (!std::isfinite(parameter)) Refuse("an effect's parameter isn't finite");
+  }
+  for (const ActingLaw& law : scene.laws) CheckLaw(scene, law, unknowns.parameters.size());
+}
+
+void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& problem) {
+  CheckUnknowns(scene, problem.start);
+  if (scene.parameters.size() != problem.start.parameters.size()) {
+    Refuse("parameters and their rules differ in number");
+  }
+  for (std::size_t i = 0; i < scene.parameters.size(); ++i) {
+    const ParameterRule& rule = scene.parameters[i];
+    const double value = problem.start.parameters[i];
+    if (!rule.held && !(rule.low <= value && value <= rule.high && rule.low < rule.high)) {
+      Refuse("an effect's parameter starts out of its bounds");
+    }
   }
   const double time_s = problem.start.collision_time_s;
   if (!(problem.earliest_s <= time_s && time_s <= problem.latest_s &&
@@ -76,7 +125,6 @@ void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& proble
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const RefinedBody& body = scene.bodies[i];
-    CheckInertia(body.inertia_per_mass);
     if (body.poses.empty()) Refuse("a body without poses");
     if (!std::is_sorted(
             body.poses.begin(), body.poses.end(),
@@ -94,6 +142,20 @@ void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& proble
       CheckTurning(body.inertia_per_mass, spin, pose.time_s - problem.earliest_s);
       CheckTurning(body.inertia_per_mass, spin, pose.time_s - problem.latest_s);
     }
+  }
+}
+
+void CheckFlown(const RefinedScene& scene, const RefinedUnknowns& unknowns, std::size_t body,
+                rust::Slice<const double> stamps_s) {
+  if (body >= scene.bodies.size()) Refuse("there is no such body");
+  const RefinedMotion& motion = unknowns.bodies[body];
+  const double lever = (ToVector3(unknowns.contact_point) - ToVector3(motion.position)).norm();
+  const double mass = body == 0 ? 1.0 : std::exp(unknowns.log_mass_ratio);
+  const double spin =
+      ToVector3(motion.spin_before).norm() + lever * ToVector3(unknowns.impulse).norm() / mass;
+  for (const double stamp_s : stamps_s) {
+    if (!std::isfinite(stamp_s)) Refuse("a time that isn't finite");
+    CheckTurning(scene.bodies[body].inertia_per_mass, spin, stamp_s - unknowns.collision_time_s);
   }
 }
 

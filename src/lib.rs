@@ -8,6 +8,7 @@
 
 pub mod batch;
 pub mod compare;
+pub mod effect;
 pub mod files;
 pub mod import;
 pub mod reconstruct;

@@ -3,6 +3,7 @@
 use schemars::generate::SchemaSettings;
 
 use crate::compare::Comparison;
+use crate::effect::file::EffectFile;
 use crate::json::pretty;
 use crate::reconstruct::Reconstruction;
 use crate::scene::SceneFile;
@@ -18,6 +19,8 @@ pub enum SchemaKind {
     Result,
     /// Results against the poses and each other: `smash.comparison/1`
     Comparison,
+    /// A law that the base model lacks (TOML)
+    Effect,
     /// What to simulate: `smash.simulation/1`
     Simulation,
     /// What a simulated scene was made with: `smash.truth/1`
@@ -34,6 +37,7 @@ pub fn schema(kind: SchemaKind) -> String {
         SchemaKind::Scene => generator.into_root_schema_for::<SceneFile>(),
         SchemaKind::Result => generator.into_root_schema_for::<Reconstruction>(),
         SchemaKind::Comparison => generator.into_root_schema_for::<Comparison>(),
+        SchemaKind::Effect => generator.into_root_schema_for::<EffectFile>(),
         SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),
         SchemaKind::Truth => generator.into_root_schema_for::<Truth>(),
     })

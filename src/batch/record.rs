@@ -14,8 +14,8 @@ use crate::reconstruct::{Options, Reconstruction};
 pub struct Provenance {
     /// SHA-256 of the scene file, as `sha256sum` prints it.
     pub scene_sha256: String,
-    /// How it was solved.
-    pub options: Options,
+    /// How it was solved: the [`Options`], effects with their laws.
+    pub options: serde_json::Value,
     /// The version of this program.
     pub smash: String,
     /// The version of Ceres Solver.
@@ -28,7 +28,8 @@ impl Provenance {
         let digest = Sha256::digest(text.as_bytes());
         Provenance {
             scene_sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
-            options: *options,
+            options: serde_json::to_value(options)
+                .expect("plain numbers, strings and lists always have a JSON form"),
             smash: env!("CARGO_PKG_VERSION").to_string(),
             ceres: crate::ceres_version(),
         }

@@ -24,6 +24,45 @@ pub(crate) mod ffi {
         poses: Vec<RefinedPose>,
         /// Without, its orientation and spin are no unknowns.
         has_spin: bool,
+        /// Full edges in m; of a sphere its diameter thrice.
+        size: [f64; 3],
+    }
+
+    /// One operation of a law; its number is that of `effect::Operation`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    struct LawInstruction {
+        operation: u8,
+        target: u16,
+        left: u16,
+        right: u16,
+        value: f64,
+    }
+
+    /// A law of an effect on one body.
+    #[derive(Debug, Clone, PartialEq)]
+    struct ActingLaw {
+        body: usize,
+        /// Laws with the same number belong to one effect.
+        effect: usize,
+        /// The number of an `effect::Hook`.
+        hook: u8,
+        /// −1 on the second body of an effect that acts between both.
+        sign: f64,
+        /// Where its parameters start in `RefinedUnknowns::parameters`, and how many scalars.
+        first_parameter: usize,
+        parameter_count: usize,
+        registers: u16,
+        result: u16,
+        instructions: Vec<LawInstruction>,
+    }
+
+    /// What a parameter may be.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    struct ParameterRule {
+        low: f64,
+        high: f64,
+        /// At its start value.
+        held: bool,
     }
 
     /// What is known: one or two bodies, and maybe a plane.
@@ -39,6 +78,12 @@ pub(crate) mod ffi {
         bodies: Vec<RefinedBody>,
         /// Unit normal of the plane normal · x = height under a single body; zero without one.
         plane_normal: [f64; 3],
+        /// The camera's centre; zero without one.
+        camera: [f64; 3],
+        /// The laws of all effects.
+        laws: Vec<ActingLaw>,
+        /// Of the laws' parameters, scalar by scalar.
+        parameters: Vec<ParameterRule>,
     }
 
     /// A body at the collision.
@@ -63,6 +108,8 @@ pub(crate) mod ffi {
         contact_basis: [[f64; 3]; 2],
         /// ln(m_b / m_a).
         log_mass_ratio: f64,
+        /// Of the effects, scalar by scalar.
+        parameters: Vec<f64>,
     }
 
     /// Which unknowns are held at their start value.
@@ -88,6 +135,10 @@ pub(crate) mod ffi {
         latest_s: f64,
         hold: RefinedHold,
         restitution: RestitutionPin,
+        /// 0: only evaluates the start.
+        most_iterations: u32,
+        /// Whether the solution is to hold the Jacobian.
+        with_jacobian: bool,
     }
 
     /// Model minus observation, as a pose's residual.
@@ -98,10 +149,36 @@ pub(crate) mod ffi {
         turn_rad: [f64; 3],
     }
 
+    /// A body just after the collision, per unit of its own mass.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    struct RefinedLaunch {
+        velocity_after: [f64; 3],
+        spin_after: [f64; 3],
+        /// After what the contact alone does: without a third party's impulse.
+        contact_velocity_after: [f64; 3],
+        contact_spin_after: [f64; 3],
+        /// Principal moments of unit mass, with the effects' factors, m².
+        inertia_per_mass: [f64; 3],
+    }
+
+    /// A body at one time.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    struct FlownState {
+        /// Centre of mass and true orientation.
+        position: [f64; 3],
+        velocity: [f64; 3],
+        orientation: [f64; 4],
+        spin: [f64; 3],
+        /// What is annotated: the centre, the orientation.
+        seen_position: [f64; 3],
+        seen_orientation: [f64; 4],
+    }
+
     /// The optimum. Information matrices (JᵀJ, of one channel each) are square, row by row, over:
     /// each body's position, velocity and, if it has a spin, l and a turn of its orientation in the
     /// world; collision time; tilt (with gravity); impulse (3, or 1 along the plane's normal);
-    /// contact point along its basis (if a body has a spin); ln m (with two bodies).
+    /// contact point along its basis (if a body has a spin); ln m (with two bodies); the parameters
+    /// that aren't held.
     #[derive(Debug, Clone)]
     struct RefinedSolution {
         unknowns: RefinedUnknowns,
@@ -116,6 +193,9 @@ pub(crate) mod ffi {
         prior_information: Vec<f64>,
         /// Body after body, in order of time.
         residuals: Vec<RefinedResidual>,
+        /// Of the residuals over their deviations, row by row in their order, three of a position
+        /// and three of an orientation that counts; empty unless asked for.
+        jacobian: Vec<f64>,
     }
 
     /// The orientations of one flight.
@@ -170,6 +250,21 @@ pub(crate) mod ffi {
         /// Minimises ½ χ² from the start.
         fn solve_refined(scene: &RefinedScene, problem: &RefinedProblem)
         -> Result<RefinedSolution>;
+
+        /// The bodies just after the collision that `unknowns` stand for.
+        fn launch(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Result<Vec<RefinedLaunch>>;
+
+        /// The model's times of all poses, body after body: their stamps, or what effects make of
+        /// them.
+        fn pose_times(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Result<Vec<f64>>;
+
+        /// Where `body` is, and is seen, at poses stamped `stamps_s`.
+        fn fly(
+            scene: &RefinedScene,
+            unknowns: &RefinedUnknowns,
+            body: usize,
+            stamps_s: &[f64],
+        ) -> Result<Vec<FlownState>>;
 
         /// Fits one flight's rotation to its own poses.
         fn fit_spin(flight: &SpinFlight) -> Result<SpinFit>;

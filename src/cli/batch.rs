@@ -36,7 +36,7 @@ pub struct Arguments {
 
 /// Reconstructs all, tells, and fails if a scene did.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let (folder, options) = (&arguments.output, arguments.method.options());
+    let (folder, options) = (&arguments.output, arguments.method.options()?);
     let progress = ProgressLine::of_batch();
     let batch =
         reconstruct_all(&arguments.scenes, folder, &options, &|step| progress.show_batch(step))?;

@@ -2,6 +2,7 @@
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
+use smash::effect::EffectRequest;
 use smash::reconstruct::{
     Intervals, Loss, Options, PaperOptions, RefinedOptions, SegmentCriterion,
 };
@@ -24,6 +25,10 @@ pub struct Method {
     /// How the 95 % intervals are found (refined method)
     #[arg(long, value_name = "HOW", default_value = "covariance")]
     intervals: IntervalsBy,
+    /// An effect beyond the base model, by its name or its file: NAME[@BODY][:parameter=value,…].
+    /// May be given several times (refined method)
+    #[arg(long, value_name = "EFFECT")]
+    with: Vec<String>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -58,19 +63,23 @@ impl Method {
 
     /// What the library is asked for; ends the program with a usage error if that contradicts
     /// itself.
-    pub fn options(&self) -> Options {
+    ///
+    /// # Errors
+    /// An effect isn't one, or its file is faulty.
+    pub fn options(&self) -> smash::Result<Options> {
         match self.preset {
-            Preset::Paper => self.paper(),
-            Preset::Refined => self.refined(),
+            Preset::Paper => Ok(self.paper()),
+            Preset::Refined => self.refined().map(Options::Refined),
         }
     }
 
     fn paper(&self) -> Options {
         let asks_refined =
             self.robust || self.tilt_std.is_some() || self.intervals != IntervalsBy::Covariance;
-        if asks_refined {
+        if asks_refined || !self.with.is_empty() {
             usage_error(
-                "the paper's method has no `--tilt-std`, `--robust` or `--intervals`: leave them out",
+                "the paper's method has no `--with`, `--tilt-std`, `--robust` or `--intervals`: \
+                 leave them out",
             );
         }
         let segment_by = match self.segment_by {
@@ -80,7 +89,11 @@ impl Method {
         Options::Paper(PaperOptions { segment_by, ..PaperOptions::default() })
     }
 
-    fn refined(&self) -> Options {
+    /// The refined method's options; a usage error as [`Method::options`].
+    ///
+    /// # Errors
+    /// As [`Method::options`].
+    pub fn refined(&self) -> smash::Result<RefinedOptions> {
         if matches!(self.segment_by, Some(SegmentBy::Distance)) {
             usage_error("`--segment-by distance` is the paper's criterion: add `--preset paper`");
         }
@@ -88,13 +101,18 @@ impl Method {
             usage_error("`--intervals profile` is of least squares: leave it or `--robust` out");
         }
         let default = RefinedOptions::default();
-        Options::Refined(RefinedOptions {
+        Ok(RefinedOptions {
             tilt_std_rad: self.tilt_std.map_or(default.tilt_std_rad, f64::to_radians),
             loss: if self.robust { Loss::Robust } else { Loss::Squares },
             intervals: match self.intervals {
                 IntervalsBy::Covariance => Intervals::Covariance,
                 IntervalsBy::Profile => Intervals::Profile,
             },
+            effects: self
+                .with
+                .iter()
+                .map(|text| EffectRequest::parse(text))
+                .collect::<smash::Result<_>>()?,
         })
     }
 }

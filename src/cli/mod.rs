@@ -4,7 +4,9 @@ mod batch;
 mod compare;
 mod comparison;
 mod doctor;
+mod effects;
 mod import;
+mod ledger;
 mod method;
 mod progress;
 mod reconstruct;
@@ -33,6 +35,7 @@ enum Command {
     Reconstruct(reconstruct::Arguments),
     Batch(batch::Arguments),
     Compare(compare::Arguments),
+    Effects(effects::Arguments),
     Import(import::Arguments),
     Simulate(simulate::Arguments),
     Schema(schema::Arguments),
@@ -47,6 +50,7 @@ pub fn main() -> ExitCode {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());
     let progress = ProgressLine::new();
-    let result = reconstruct_with_progress(&scene, &arguments.method.options(), &|step| {
+    let result = reconstruct_with_progress(&scene, &arguments.method.options()?, &|step| {
         progress.show(step);
     })
     .map_err(|error| error.in_file(arguments.scene.display().to_string()))?;

@@ -14,6 +14,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal, St
 
 /// Fewer poses have no shape.
 const LEAST_POSES: usize = 4;
+/// In σ. Residuals that are all smaller have an order that is the solver's rounding, and matters to
+/// nobody.
+const NEGLIGIBLE: f64 = 0.05;
 /// A channel is called structured below.
 const SIGNIFICANT: f64 = 0.01;
 /// Where the fit has eaten more of a pattern than this share of its variance leaves, what is left is
@@ -116,8 +119,14 @@ impl Series {
             for (test, contrast) in self.contrasts() {
                 tests.push(self.sum(&null, test, &contrast));
             }
-            tests.push(null.simulated(TestName::Runs, &self.values, run_length));
-            tests.push(null.simulated(TestName::Autocorrelation, &self.values, autocorrelation));
+            if self.values.amax() > NEGLIGIBLE {
+                tests.push(null.simulated(TestName::Runs, &self.values, run_length));
+                tests.push(null.simulated(
+                    TestName::Autocorrelation,
+                    &self.values,
+                    autocorrelation,
+                ));
+            }
             tests.push(self.outlier(&null));
         }
         let least = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);

@@ -39,6 +39,13 @@ pub fn shell_word(text: &str) -> String {
 /// # Errors
 /// The file can't be read, is larger than [`LARGEST_INPUT_BYTES`], or isn't UTF-8.
 pub fn read_text(path: &Path) -> Result<String> {
+    let mend = "keep the poses around the collision, or every n-th of them";
+    read_text_up_to(LARGEST_INPUT_BYTES, path, mend)
+}
+
+/// Reads the text of `path`, or of standard input for `-`, if it has at most `limit` bytes; else
+/// `mend` says what to do.
+pub(crate) fn read_text_up_to(limit: u64, path: &Path, mend: &str) -> Result<String> {
     let name = display_name(path, "standard input");
     let unreadable = |error: io::Error| {
         Error::new(ErrorKind::Read, format!("can't be read: {}", plain(&error)))
@@ -51,12 +58,10 @@ pub fn read_text(path: &Path) -> Result<String> {
         Box::new(File::open(path).map_err(unreadable)?)
     };
     let mut bytes = Vec::new();
-    source.take(LARGEST_INPUT_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_INPUT_BYTES {
-        let problem = format!("is larger than {} MiB", LARGEST_INPUT_BYTES >> 20);
-        return Err(Error::new(ErrorKind::Read, problem)
-            .in_file(&name)
-            .mend("keep the poses around the collision, or every n-th of them"));
+    source.take(limit + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > limit {
+        let problem = format!("is larger than {} KiB", limit >> 10);
+        return Err(Error::new(ErrorKind::Read, problem).in_file(&name).mend(mend));
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();

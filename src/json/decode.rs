@@ -9,6 +9,7 @@ use serde_path_to_error::{Path, Segment};
 
 use super::fault::Fault;
 use super::parse::{Tree, parse};
+use super::toml::parse_toml;
 use crate::words::{quoted, shortened};
 use crate::{Error, Result};
 
@@ -23,12 +24,24 @@ pub(crate) fn decode<T: DeserializeOwned>(text: &str, file: &str, schema: &str) 
         if let Some(Tree::Text(found)) = tree.field("schema") {
             check_schema(found, schema)?;
         }
-        serde_path_to_error::deserialize(tree).map_err(|error| {
-            let place = place(error.path());
-            error.into_inner().into_error(place)
-        })
+        from_tree(tree)
     };
     parse(text).and_then(|tree| decode_tree(&tree)).map_err(|error| error.in_file(file))
+}
+
+/// Reads a TOML file from its `text`.
+///
+/// # Errors
+/// Not TOML, or a value that doesn't fit; with the place, the value found and a mend.
+pub(crate) fn decode_toml<T: DeserializeOwned>(text: &str, file: &str) -> Result<T> {
+    parse_toml(text).and_then(|tree| from_tree(&tree)).map_err(|error| error.in_file(file))
+}
+
+fn from_tree<T: DeserializeOwned>(tree: &Tree) -> Result<T> {
+    serde_path_to_error::deserialize(tree).map_err(|error| {
+        let place = place(error.path());
+        error.into_inner().into_error(place)
+    })
 }
 
 /// Whether `text` is JSON in good order, but no file of the kind `schema`.

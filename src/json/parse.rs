@@ -31,10 +31,15 @@ pub(super) enum Tree {
 /// column.
 pub(super) fn parse(text: &str) -> Result<Tree> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let values = Cell::new(0);
     let mut source = serde_json::Deserializer::from_str(text);
-    let tree = Values { count: &values }.deserialize(&mut source);
-    tree.and_then(|tree| source.end().map(|()| tree)).map_err(|error| explained(&error, text))
+    tree_of(&mut source)
+        .and_then(|tree| source.end().map(|()| tree))
+        .map_err(|error| explained(&error, text))
+}
+
+/// The tree that `source` holds.
+pub(super) fn tree_of<'de, D: Deserializer<'de>>(source: D) -> std::result::Result<Tree, D::Error> {
+    Values { count: &Cell::new(0) }.deserialize(source)
 }
 
 /// Builds the tree, and counts its values.

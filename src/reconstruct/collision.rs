@@ -18,6 +18,8 @@ const NO_SURFACE: &str = "it needs the spins, and too few orientations are annot
 pub(super) struct States {
     pub(super) before: RigidBody,
     pub(super) after: RigidBody,
+    /// After what the contact alone does: a third party's impulse is no part of the restitution.
+    pub(super) contact_after: RigidBody,
     /// Whether the poses tell the spin.
     pub(super) spin_before_known: bool,
     pub(super) spin_after_known: bool,
@@ -70,7 +72,7 @@ pub(super) fn restitution(
     let partner = states.get(1);
     let value = contact.restitution(
         (&states[0].before, partner.map(|b| &b.before)),
-        (&states[0].after, partner.map(|b| &b.after)),
+        (&states[0].contact_after, partner.map(|b| &b.contact_after)),
     );
     if value.is_finite() { Ok(value) } else { Err(NO_APPROACH) }
 }

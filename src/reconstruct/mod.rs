@@ -17,8 +17,8 @@ pub use flags::Flag;
 pub use options::{Intervals, Loss, Options, PaperOptions, RefinedOptions, SegmentCriterion};
 pub use progress::{Progress, Stage};
 pub use result::{
-    Alternative, BodyResult, Effect, Estimate, Fit, NoiseReport, Outlier, Parameter, PhaseReport,
-    Preset, RESULT_SCHEMA, Reconstruction, Uncertainty,
+    ActiveEffect, Alternative, BodyResult, Estimate, Fit, NoiseReport, Number, Outlier,
+    ParameterEstimate, PhaseReport, Preset, RESULT_SCHEMA, Reconstruction, Uncertainty,
 };
 
 use crate::{Error, ErrorKind, Result, Scene};

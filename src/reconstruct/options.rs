@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::effect::EffectRequest;
+
 /// How to solve.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "preset", rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Options {
@@ -15,7 +17,7 @@ pub enum Options {
 }
 
 /// Choices of the `refined` preset.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RefinedOptions {
     /// One σ of the angle about each horizontal axis by which the scene's `up` may be wrong, in rad;
     /// above 0.
@@ -24,6 +26,9 @@ pub struct RefinedOptions {
     pub loss: Loss,
     /// How the 95 % intervals are found.
     pub intervals: Intervals,
+    /// Effects beyond the base model, in the order in which they are added.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub effects: Vec<EffectRequest>,
 }
 
 /// What a residual costs.
@@ -58,6 +63,7 @@ impl Default for RefinedOptions {
             tilt_std_rad: TILT_STD_RAD,
             loss: Loss::Squares,
             intervals: Intervals::Covariance,
+            effects: Vec::new(),
         }
     }
 }

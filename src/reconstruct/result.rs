@@ -43,7 +43,7 @@ pub struct Reconstruction {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[f64; 3]>,
     /// Effects beyond the base model.
-    pub effects: Vec<Effect>,
+    pub effects: Vec<ActiveEffect>,
     /// The noise that the fit reckons with; missing in the `paper` preset, which has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseReport>,
@@ -160,27 +160,56 @@ pub struct Uncertainty {
 
 /// An effect beyond the base model, with its parameters. The `paper` preset has none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Effect {
-    /// Its name in the catalogue.
+pub struct ActiveEffect {
+    /// Its name in the catalogue, or in the user's file.
     pub name: String,
     /// The body that it acts on; null for all.
     pub body: Option<String>,
     /// Its parameters by name.
-    pub parameters: BTreeMap<String, Parameter>,
+    pub parameters: BTreeMap<String, ParameterEstimate>,
 }
 
 /// A parameter of an effect.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Parameter {
-    /// The estimate; null where the data don't determine it.
-    pub value: Option<f64>,
+pub struct ParameterEstimate {
+    /// The estimate, of a vector its three components; null where the data don't determine it.
+    pub value: Option<Number>,
     /// One standard deviation; null where it can't be computed.
-    pub std: Option<f64>,
+    pub std: Option<Number>,
     /// Of the value.
     pub unit: String,
     /// Why `value` or `std` is null.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+}
+
+/// A scalar, or a vector.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Number {
+    /// One number.
+    Scalar(f64),
+    /// Three components, in the world or in the body as the effect says.
+    Vector([f64; 3]),
+}
+
+impl Number {
+    /// The components.
+    pub fn components(&self) -> &[f64] {
+        match self {
+            Number::Scalar(value) => std::slice::from_ref(value),
+            Number::Vector(values) => values,
+        }
+    }
+}
+
+impl From<Vec<f64>> for Number {
+    fn from(values: Vec<f64>) -> Self {
+        match <[f64; 3]>::try_from(values.as_slice()) {
+            Ok(vector) => Number::Vector(vector),
+            Err(_) => Number::Scalar(values.first().copied().unwrap_or(f64::NAN)),
+        }
+    }
 }
 
 /// A body at the moment of the collision.

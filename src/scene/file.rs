@@ -164,6 +164,14 @@ impl Shape {
             Shape::Sphere { radius } => 2.0 * radius,
         }
     }
+
+    /// The full edges along the body's axes, in m; of a sphere its diameter thrice.
+    pub fn edges_m(&self) -> [f64; 3] {
+        match *self {
+            Shape::Box { size } => size,
+            Shape::Sphere { radius } => [2.0 * radius; 3],
+        }
+    }
 }
 
 /// One annotated pose.

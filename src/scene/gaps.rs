@@ -38,16 +38,25 @@ impl Scene {
 
 /// The gaps with `least` or more poses of each body on each side, in order of time.
 pub(super) fn with_poses(bodies: &[DynamicBody], least: usize) -> Vec<Gap> {
-    let mut times: Vec<f64> =
-        bodies.iter().flat_map(|body| &body.observations).map(|seen| seen.time_s).collect();
-    times.sort_by(f64::total_cmp);
+    let times_s: Vec<Vec<f64>> = bodies
+        .iter()
+        .map(|body| body.observations.iter().map(|seen| seen.time_s).collect())
+        .collect();
+    gaps_between(&times_s, least)
+}
+
+/// The gaps of the bodies' poses at these times, each body's in order, with `least` or more of each
+/// on each side.
+pub(crate) fn gaps_between(times_s: &[Vec<f64>], least: usize) -> Vec<Gap> {
+    let mut all: Vec<f64> = times_s.iter().flatten().copied().collect();
+    all.sort_by(f64::total_cmp);
     let has_enough = |gap: &Gap| {
-        bodies.iter().all(|body| {
-            let before = poses_before(body, gap);
-            before >= least && body.observations.len() - before >= least
+        times_s.iter().all(|body| {
+            let before = body.partition_point(|time_s| *time_s < gap.midpoint_s());
+            before >= least && body.len() - before >= least
         })
     };
-    let gaps = times.windows(2).map(|pair| Gap { start_s: pair[0], end_s: pair[1] });
+    let gaps = all.windows(2).map(|pair| Gap { start_s: pair[0], end_s: pair[1] });
     gaps.filter(|gap| gap.end_s - gap.start_s >= SAME_TIME_S).filter(has_enough).collect()
 }
 

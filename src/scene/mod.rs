@@ -16,6 +16,7 @@ mod warn;
 
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};
 pub use gaps::Gap;
+pub(crate) use gaps::gaps_between;
 
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
@@ -122,6 +123,18 @@ impl Scene {
     /// The static plane, if the contact is with one.
     pub fn plane(&self) -> Option<&StaticPlane> {
         self.plane.as_ref()
+    }
+
+    /// The scene with the stamps of one body, or of all, moved by `shift_s`; `None` where they then
+    /// leave no gap for the collision.
+    pub(crate) fn delayed(&self, body: Option<usize>, shift_s: f64) -> Option<Scene> {
+        let mut moved = self.clone();
+        for (index, other) in moved.bodies.iter_mut().enumerate() {
+            if body.is_none_or(|body| body == index) {
+                other.observations.iter_mut().for_each(|seen| seen.time_s += shift_s);
+            }
+        }
+        (!moved.gaps().is_empty()).then_some(moved)
     }
 
     /// Puts the warnings in the terms of what the scene was made of.

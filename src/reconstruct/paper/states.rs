@@ -43,9 +43,11 @@ fn body_states(
         ..pose
     };
     let (seen_before, seen_after) = seen(&internal.paper.bodies[index], solved.collision_frames);
+    let after = moving(velocities.after, &unknown.after);
     Ok(States {
         before: moving(velocities.before, &unknown.before),
-        after: moving(velocities.after, &unknown.after),
+        after,
+        contact_after: after,
         // Two orientations tell a flight's spin; one does where the other side tells the pose at
         // the collision.
         spin_before_known: seen_before >= 2 || (seen_before == 1 && seen_after >= 2),

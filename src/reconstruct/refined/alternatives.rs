@@ -2,12 +2,12 @@
 
 use nalgebra::Vector3;
 
+use super::fitted::Fitted;
 use super::layout::Layout;
 use super::optimum::Optimum;
 use super::quantities::collision;
-use super::solve::Solved;
-use crate::Scene;
 use crate::reconstruct::Alternative;
+use crate::{Result, Scene};
 
 /// Optima whose χ² is larger by more are improbable: three standard deviations.
 const NEARLY_AS_GOOD: f64 = 9.0;
@@ -15,21 +15,20 @@ const NEARLY_AS_GOOD: f64 = 9.0;
 /// Optima nearly as good as the best that say something else.
 pub(super) fn alternatives(
     scene: &Scene,
-    solved: &Solved,
+    fitted: &Fitted,
     layout: &Layout,
-    has_spin: &[bool],
-) -> Vec<Alternative> {
+) -> Result<Vec<Alternative>> {
     let time = layout.time;
-    let best = &solved.optima[0];
+    let best = fitted.best();
     let mut told = vec![best];
     let mut found: Vec<Alternative> = Vec::new();
-    for other in &solved.optima[1..] {
+    for other in &fitted.optima[1..] {
         let delta_chi2 = 2.0 * (other.solution.cost - best.solution.cost);
         if delta_chi2 > NEARLY_AS_GOOD || told.iter().any(|known| is_same(known, other, time)) {
             continue;
         }
         told.push(other);
-        let collision = collision(scene, &other.solution.unknowns, has_spin);
+        let collision = collision(scene, &fitted.refined, &other.solution.unknowns)?;
         let differs_in = match other.gap == best.gap {
             true => "whole turns of a spin".to_string(),
             false => format!("the segment: {:.4} s to {:.4} s", other.gap.start_s, other.gap.end_s),
@@ -42,7 +41,7 @@ pub(super) fn alternatives(
             collision_time: collision.time_s,
         });
     }
-    found
+    Ok(found)
 }
 
 /// Whether two optima are one: the same spins before to 2 %, and times as near as a tenth of the

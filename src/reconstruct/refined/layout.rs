@@ -18,6 +18,8 @@ pub(super) struct Layout {
     normal: Option<Vector3<f64>>,
     pub(super) contact: Option<usize>,
     pub(super) log_mass: Option<usize>,
+    /// Of each scalar of the effects' parameters; `None` where it is held.
+    pub(super) parameters: Vec<Option<usize>>,
     pub(super) size: usize,
 }
 
@@ -39,7 +41,9 @@ impl Layout {
         let impulse = place(if normal.is_some() { 1 } else { 3 });
         let contact = any_spin(scene).then(|| place(2));
         let log_mass = (scene.bodies.len() == 2).then(|| place(1));
-        Layout { bodies, time, tilt, impulse, normal, contact, log_mass, size }
+        let parameters =
+            scene.parameters.iter().map(|rule| (!rule.held).then(|| place(1))).collect();
+        Layout { bodies, time, tilt, impulse, normal, contact, log_mass, parameters, size }
     }
 
     /// The unknowns after a step of `length` along coordinate `index`.
@@ -80,6 +84,9 @@ impl Layout {
         }
         if self.log_mass == Some(index) {
             moved.log_mass_ratio += length;
+        }
+        if let Some(number) = self.parameters.iter().position(|place| *place == Some(index)) {
+            moved.parameters[number] += length;
         }
         moved
     }

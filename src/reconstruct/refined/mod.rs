@@ -7,13 +7,17 @@
 //!          spins (± turns)      choice of turns     the best starts numbers
 //! ```
 
+mod acting;
 mod alternatives;
 mod covariance;
+mod fitted;
+mod gain;
 mod layout;
 mod model;
 mod noise;
 mod optimum;
 mod parabolas;
+mod parameters;
 mod profile;
 mod quantities;
 mod report;
@@ -24,11 +28,12 @@ mod solve;
 mod solver_tests;
 mod spins;
 mod start;
+mod starts;
 mod uncertainty;
 
-use self::noise::LEAST_NOISE;
+use self::acting::instances;
+use self::fitted::Fitted;
 use super::{Intervals, Loss, Reconstruction, RefinedOptions};
-use crate::scene::Noise;
 use crate::{Error, ErrorKind, Result, Scene};
 
 /// Less is rounding; more is no direction.
@@ -46,12 +51,11 @@ pub(super) fn reconstruct(scene: &Scene, options: &RefinedOptions) -> Result<Rec
         let problem = "profile intervals are of least squares, not of the robust loss";
         return Err(Error::new(ErrorKind::Invalid, problem).mend("leave one of the two out"));
     }
-    let stated = scene.noise().map(|noise| Noise {
-        position: noise.position.max(LEAST_NOISE.position),
-        orientation: noise.orientation.max(LEAST_NOISE.orientation),
-    });
-    let parabolas = parabolas::Parabolas::new(scene);
-    let mut refined = model::refined_scene(scene, LEAST_NOISE, options.tilt_std_rad);
-    let solved = solve::solve(&mut refined, &parabolas, stated, options.loss)?;
-    Ok(report::reconstruction(scene, &refined, &solved, options))
+    let mut fitted = Fitted::base(scene, options.tilt_std_rad, options.loss)?;
+    for request in &options.effects {
+        for instance in instances(scene, request)? {
+            fitted = fitted.with(scene, &instance)?;
+        }
+    }
+    report::reconstruction(scene, &fitted, options.intervals)
 }

@@ -24,6 +24,9 @@ pub(super) fn refined_scene(scene: &Scene, noise: Noise, tilt_std_rad: f64) -> R
         plane_normal: scene
             .plane()
             .map_or([0.0; 3], |plane| plane.normal_in_world.into_inner().into()),
+        camera: scene.camera().map_or([0.0; 3], |camera| camera.position),
+        laws: Vec::new(),
+        parameters: Vec::new(),
     }
 }
 
@@ -55,6 +58,7 @@ fn refined_body(body: &DynamicBody, noise: Noise) -> RefinedBody {
     RefinedBody {
         inertia_per_mass: principal_inertia_per_mass(&body.shape).into(),
         has_spin: poses.iter().filter(|pose| pose.has_orientation).count() >= LEAST_ORIENTATIONS,
+        size: body.shape.edges_m(),
         poses,
     }
 }

@@ -3,13 +3,17 @@
 use nalgebra::DMatrix;
 
 use super::covariance::Covariance;
-use super::start::Candidate;
 use crate::bridge::refined::ffi::{
-    self, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution, RestitutionPin,
+    self, RefinedBody, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution, RefinedUnknowns,
+    RestitutionPin,
 };
+use crate::effect::Hook;
 use crate::reconstruct::solver_error;
-use crate::scene::Gap;
+use crate::scene::bounds::LEAST_POSES;
+use crate::scene::{Gap, gaps_between};
 use crate::{Error, ErrorKind, Result};
+
+const MOST_ITERATIONS: u32 = 50;
 
 /// An optimum in one segment.
 #[derive(Debug, Clone)]
@@ -20,7 +24,7 @@ pub(super) struct Optimum {
 }
 
 /// Minimises from where `unknowns` are, with nothing held.
-pub(super) fn free_problem(unknowns: &ffi::RefinedUnknowns, gap: &Gap) -> RefinedProblem {
+pub(super) fn free_problem(unknowns: &RefinedUnknowns, gap: &Gap) -> RefinedProblem {
     let mut start = unknowns.clone();
     start.collision_time_s = start.collision_time_s.clamp(gap.start_s, gap.end_s);
     RefinedProblem {
@@ -29,6 +33,8 @@ pub(super) fn free_problem(unknowns: &ffi::RefinedUnknowns, gap: &Gap) -> Refine
         latest_s: gap.end_s,
         hold: RefinedHold { collision_time: false, log_mass_ratio: false },
         restitution: RestitutionPin { value: 0.0, weight: 0.0 },
+        most_iterations: MOST_ITERATIONS,
+        with_jacobian: false,
     }
 }
 
@@ -43,33 +49,35 @@ pub(super) fn information(solution: &RefinedSolution, channel: &[f64]) -> DMatri
     DMatrix::from_row_slice(solution.size, solution.size, channel)
 }
 
-pub(super) fn optimised(
+/// The optima that these starts lead to, best first; never empty.
+pub(super) fn optima_from(
     scene: &RefinedScene,
-    starts: &[Candidate],
-    gaps: &[Gap],
+    starts: &[(RefinedUnknowns, Gap)],
 ) -> Result<Vec<Optimum>> {
-    let optima = all_optima(scene, starts.iter().map(|start| (&start.unknowns, start.gap)))?;
-    let mut walked: Vec<Optimum> =
-        optima.into_iter().map(|optimum| walked(scene, optimum, gaps)).collect();
+    let optima = all_optima(scene, starts.iter().map(|(unknowns, gap)| (unknowns, *gap)))?;
+    let mut walked: Vec<Optimum> = optima.into_iter().map(|best| walked(scene, best)).collect();
     sort(&mut walked);
     Ok(walked)
 }
 
 /// On to the next segment, and the next, as long as the collision time ends at a bound and χ² falls.
-fn walked(scene: &RefinedScene, mut best: Optimum, gaps: &[Gap]) -> Optimum {
+fn walked(scene: &RefinedScene, mut best: Optimum) -> Optimum {
     const MOST_STEPS: usize = 50;
     for _ in 0..MOST_STEPS {
         let Gap { start_s, end_s } = best.gap;
         let margin_s = 1e-6 * (end_s - start_s);
         let time_s = best.solution.unknowns.collision_time_s;
-        let next = match (time_s - start_s < margin_s, end_s - time_s < margin_s) {
-            (true, _) => gaps.iter().find(|gap| gap.end_s == start_s),
-            (_, true) => gaps.iter().find(|gap| gap.start_s == end_s),
-            _ => None,
+        if time_s - start_s >= margin_s && end_s - time_s >= margin_s {
+            break;
+        }
+        let Ok(gaps) = gaps(scene, &best.solution.unknowns) else { break };
+        let is_down = time_s - start_s < margin_s;
+        let next = match is_down {
+            true => gaps.iter().rfind(|gap| gap.end_s <= start_s + margin_s),
+            false => gaps.iter().find(|gap| gap.start_s >= end_s - margin_s),
         };
         let Some(&gap) = next else { break };
-        let next = optimum(scene, &free_problem(&best.solution.unknowns, &gap), gap);
-        match next {
+        match optimum(scene, &best.solution.unknowns, gap) {
             // By more than rounding.
             Ok(other) if other.solution.cost < best.solution.cost * (1.0 - 1e-9) => best = other,
             _ => break,
@@ -86,12 +94,12 @@ pub(super) fn warm(scene: &RefinedScene, optima: &[Optimum]) -> Result<Vec<Optim
 /// One that fails doesn't spoil the others.
 fn all_optima<'a>(
     scene: &RefinedScene,
-    starts: impl Iterator<Item = (&'a ffi::RefinedUnknowns, Gap)>,
+    starts: impl Iterator<Item = (&'a RefinedUnknowns, Gap)>,
 ) -> Result<Vec<Optimum>> {
     let mut optima = Vec::new();
     let mut failure = None;
     for (unknowns, gap) in starts {
-        match optimum(scene, &free_problem(unknowns, &gap), gap) {
+        match optimum(scene, unknowns, gap) {
             Ok(optimum) => optima.push(optimum),
             Err(error) => failure = Some(error),
         }
@@ -110,10 +118,86 @@ pub(super) fn sort(optima: &mut [Optimum]) {
     optima.sort_by(|a, b| a.solution.cost.total_cmp(&b.solution.cost));
 }
 
-fn optimum(scene: &RefinedScene, problem: &RefinedProblem, gap: Gap) -> Result<Optimum> {
-    let solution = ffi::solve_refined(scene, problem).map_err(solver_error)?;
-    let sum = information(&solution, &solution.position_information)
-        + information(&solution, &solution.orientation_information)
-        + information(&solution, &solution.prior_information);
-    Ok(Optimum { gap, covariance: Covariance::new(&sum), solution })
+/// The optimum from `unknowns`, with the collision in `gap`; where effects move the poses' times,
+/// in the gap that theirs then make.
+fn optimum(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result<Optimum> {
+    /// Times that move poses across the collision settle within a few.
+    const MOST_ROUNDS: usize = 6;
+    let mut solution = solved(scene, unknowns, gap)?;
+    let mut gap = gap;
+    if moves_times(scene) {
+        for _ in 0..MOST_ROUNDS {
+            let gaps = gaps(scene, &solution.unknowns)?;
+            let now = nearest(&gaps, solution.unknowns.collision_time_s).unwrap_or(gap);
+            let is_same = split(scene, &solution.unknowns, now)? == split(scene, unknowns, gap)?;
+            gap = now;
+            if is_same {
+                break;
+            }
+            let from = solution.unknowns.clone();
+            solution = solved(scene, &from, gap)?;
+        }
+    }
+    Ok(Optimum { gap, covariance: Covariance::new(&total_information(&solution)), solution })
+}
+
+fn solved(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result<RefinedSolution> {
+    ffi::solve_refined(scene, &free_problem(unknowns, &gap)).map_err(solver_error)
+}
+
+/// The model at `unknowns`, with its Jacobian; nothing is optimised.
+pub(super) fn evaluated(
+    scene: &RefinedScene,
+    unknowns: &RefinedUnknowns,
+    gap: Gap,
+) -> Result<RefinedSolution> {
+    let mut problem = free_problem(unknowns, &gap);
+    problem.most_iterations = 0;
+    problem.with_jacobian = true;
+    ffi::solve_refined(scene, &problem).map_err(solver_error)
+}
+
+fn total_information(solution: &RefinedSolution) -> DMatrix<f64> {
+    information(solution, &solution.position_information)
+        + information(solution, &solution.orientation_information)
+        + information(solution, &solution.prior_information)
+}
+
+/// Whether an effect says when poses were seen.
+fn moves_times(scene: &RefinedScene) -> bool {
+    scene.laws.iter().any(|law| law.hook == Hook::Time as u8)
+}
+
+/// The times of each body's poses in the model.
+fn pose_times(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Result<Vec<Vec<f64>>> {
+    if !moves_times(scene) {
+        let times = |body: &RefinedBody| body.poses.iter().map(|pose| pose.time_s).collect();
+        return Ok(scene.bodies.iter().map(times).collect());
+    }
+    let all = ffi::pose_times(scene, unknowns).map_err(solver_error)?;
+    let mut rest = all.as_slice();
+    let mut times = Vec::new();
+    for body in &scene.bodies {
+        let (own, others) = rest.split_at(body.poses.len());
+        times.push(own.to_vec());
+        rest = others;
+    }
+    Ok(times)
+}
+
+fn gaps(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Result<Vec<Gap>> {
+    Ok(gaps_between(&pose_times(scene, unknowns)?, LEAST_POSES))
+}
+
+/// How many poses of each body are before the gap.
+fn split(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result<Vec<usize>> {
+    let middle_s = gap.midpoint_s();
+    let before = |times: &Vec<f64>| times.iter().filter(|time_s| **time_s < middle_s).count();
+    Ok(pose_times(scene, unknowns)?.iter().map(before).collect())
+}
+
+/// The gap that holds `time_s`, or the nearest.
+pub(super) fn nearest(gaps: &[Gap], time_s: f64) -> Option<Gap> {
+    let distance = |gap: &Gap| (gap.start_s - time_s).max(time_s - gap.end_s).max(0.0);
+    gaps.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
 }

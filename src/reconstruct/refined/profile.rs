@@ -5,7 +5,7 @@
 use nalgebra::DVector;
 
 use super::layout::Layout;
-use super::optimum::{Optimum, free_problem};
+use super::optimum::{Optimum, free_problem, nearest};
 use crate::Result;
 use crate::bridge::refined::ffi::{self, RefinedProblem, RefinedScene, RestitutionPin};
 use crate::reconstruct::solver_error;
@@ -107,10 +107,7 @@ impl Profile<'_> {
         }
     }
 
-    /// The segment that holds `time_s`, or the nearest.
     fn gap(&self, time_s: f64) -> Gap {
-        let distance = |gap: &Gap| (gap.start_s - time_s).max(time_s - gap.end_s).max(0.0);
-        let nearest = self.gaps.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        nearest.copied().unwrap_or(self.optimum.gap)
+        nearest(self.gaps, time_s).unwrap_or(self.optimum.gap)
     }
 }

@@ -3,10 +3,12 @@
 use nalgebra::{DMatrix, UnitQuaternion, Vector3};
 
 use super::layout::Layout;
+use super::model::any_spin;
 use super::optimum::Optimum;
 use crate::Scene;
-use crate::bridge::refined::ffi::RefinedUnknowns;
+use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns, launch};
 use crate::reconstruct::collision::{States, contact, restitution};
+use crate::reconstruct::solver_error;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::rigid_body::{Contact, RigidBody};
 use crate::scene::Shape;
@@ -21,56 +23,76 @@ pub(super) struct Collision {
     /// `None` without an impulse.
     pub(super) contact: Option<Contact>,
     pub(super) states: Vec<States>,
+    /// The acceleration that all flights share, in m/s²: the scene's, tilted.
+    pub(super) gravity: Vector3<f64>,
 }
 
-/// The collision that `unknowns` stand for. `has_spin`: of each body.
-pub(super) fn collision(scene: &Scene, unknowns: &RefinedUnknowns, has_spin: &[bool]) -> Collision {
+/// The collision that `unknowns` stand for.
+pub(super) fn collision(
+    scene: &Scene,
+    refined: &RefinedScene,
+    unknowns: &RefinedUnknowns,
+) -> crate::Result<Collision> {
     let impulse = Vector3::from(unknowns.impulse);
+    let mut unknowns = unknowns.clone();
     // Without any spin nothing tells the line of action: between the centres, as of balls.
-    let point = match has_spin.contains(&true) {
-        true => Vector3::from(unknowns.contact_point),
-        false => {
-            let centres = unknowns.bodies.iter().map(|motion| Vector3::from(motion.position));
-            centres.sum::<Vector3<f64>>() / unknowns.bodies.len() as f64
-        }
-    };
+    if !any_spin(refined) {
+        let centres = unknowns.bodies.iter().map(|motion| Vector3::from(motion.position));
+        let middle = centres.sum::<Vector3<f64>>() / unknowns.bodies.len() as f64;
+        unknowns.contact_point = middle.into();
+    }
     let mass_ratio = (scene.bodies().len() == 2).then(|| unknowns.log_mass_ratio.exp());
-    let states: Vec<States> = scene
-        .bodies()
-        .iter()
-        .zip(&unknowns.bodies)
-        .enumerate()
-        .map(|(index, (body, motion))| {
-            let (mass, kick) = match (index, mass_ratio) {
-                (1, Some(mass)) => (mass, -impulse),
-                _ => (1.0, impulse),
-            };
+    let launches = launch(refined, &unknowns).map_err(solver_error)?;
+    let states: Vec<States> = (0..scene.bodies().len())
+        .map(|index| {
+            let mass = if index == 0 { 1.0 } else { mass_ratio.unwrap_or(1.0) };
+            let motion = &unknowns.bodies[index];
+            let launch = &launches[index];
+            let has_spin = refined.bodies[index].has_spin;
+            let shape = &scene.bodies()[index].shape;
             let before = RigidBody {
+                mass,
+                principal_inertia: mass * Vector3::from(launch.inertia_per_mass),
                 position_in_world: motion.position.into(),
                 world_from_body: from_wxyz(motion.orientation),
                 velocity_in_world: motion.velocity_before.into(),
                 angular_momentum_in_world: mass * Vector3::from(motion.spin_before),
-                ..RigidBody::solid(&body.shape, mass)
             };
-            let at = if has_spin[index] { point } else { before.position_in_world };
+            let after = |velocity: [f64; 3], spin: [f64; 3]| RigidBody {
+                velocity_in_world: velocity.into(),
+                // Without a spin only what acts at the centre is known.
+                angular_momentum_in_world: match has_spin {
+                    true => mass * Vector3::from(spin),
+                    false => before.angular_momentum_in_world,
+                },
+                ..before
+            };
             States {
-                after: before.pushed(&at, &kick),
+                after: after(launch.velocity_after, launch.spin_after),
+                contact_after: after(launch.contact_velocity_after, launch.contact_spin_after),
                 before,
-                spin_before_known: has_spin[index],
-                spin_after_known: has_spin[index],
-                is_ball: matches!(body.shape, Shape::Sphere { .. }),
+                spin_before_known: has_spin,
+                spin_after_known: has_spin,
+                is_ball: matches!(shape, Shape::Sphere { .. }),
             }
         })
         .collect();
-    let contact = contact(scene, &states, point, &impulse);
-    Collision {
+    let contact = contact(scene, &states, unknowns.contact_point.into(), &impulse);
+    Ok(Collision {
         mass_ratio,
         restitution: restitution(scene, contact, &states),
         time_s: unknowns.collision_time_s,
         impulse,
         contact,
         states,
-    }
+        gravity: gravity(refined, unknowns.tilt),
+    })
+}
+
+fn gravity(scene: &RefinedScene, tilt: [f64; 2]) -> Vector3<f64> {
+    let [first, second] = scene.across.map(Vector3::from);
+    let along = Vector3::from(scene.down) + tilt[0] * first + tilt[1] * second;
+    scene.gravity_m_s2 * along.normalize()
 }
 
 /// The names of [`Collision::flat`], in its order.
@@ -86,6 +108,7 @@ pub(super) fn names(scene: &Scene) -> Vec<String> {
             names.extend(vector(&format!("{}.{quantity}", body.name)));
         }
     }
+    names.extend(vector("gravity"));
     names
 }
 
@@ -138,6 +161,7 @@ impl Collision {
             push(&before.angular_momentum_in_world);
             push(&after.angular_momentum_in_world);
         }
+        push(&self.gravity);
         flat
     }
 }
@@ -148,23 +172,24 @@ pub(super) fn derivatives(
     scene: &Scene,
     layout: &Layout,
     optimum: &Optimum,
-    has_spin: &[bool],
-) -> DMatrix<f64> {
+    refined: &RefinedScene,
+) -> crate::Result<DMatrix<f64>> {
     /// In deviations: rounding and curvature both stay below a millionth.
     const STEP: f64 = 1e-3;
     let unknowns = &optimum.solution.unknowns;
-    let base = collision(scene, unknowns, has_spin);
+    let base = collision(scene, refined, unknowns)?;
     let rows = base.flat(&base).len();
     let mut derivatives = DMatrix::zeros(rows, layout.size);
     for column in 0..layout.size {
         let std = optimum.covariance.matrix[(column, column)].sqrt();
         let length = (STEP * std).clamp(1e-7, 1e-3);
         let at = |length: f64| {
-            collision(scene, &layout.stepped(unknowns, column, length), has_spin).flat(&base)
+            let moved = collision(scene, refined, &layout.stepped(unknowns, column, length))?;
+            crate::Result::Ok(moved.flat(&base))
         };
-        for (row, (high, low)) in at(length).iter().zip(at(-length)).enumerate() {
+        for (row, (high, low)) in at(length)?.iter().zip(at(-length)?).enumerate() {
             derivatives[(row, column)] = (high - low) / (2.0 * length);
         }
     }
-    derivatives
+    Ok(derivatives)
 }

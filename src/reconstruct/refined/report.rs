@@ -1,18 +1,16 @@
 //! From the optimum to a reconstruction, with what is sure and what is doubtful.
 
-use nalgebra::Vector3;
-
 use super::alternatives::alternatives;
+use super::fitted::Fitted;
 use super::layout::Layout;
 use super::noise::{KnownNoise, is_known, positions, turns};
 use super::optimum::Optimum;
+use super::parameters::effects;
 use super::profile::{Held, Profile};
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
 use super::robust::outliers;
 use super::significance::push;
-use super::solve::Solved;
 use super::uncertainty::Deviations;
-use crate::Scene;
 use crate::bridge::refined::ffi::RefinedScene;
 use crate::reconstruct::collision::{NO_IMPULSE, body_result};
 use crate::reconstruct::flags::{Doubts, flags};
@@ -20,7 +18,8 @@ use crate::reconstruct::result::{
     BodyResult, Estimate, Fit, NoiseReport, Outlier, Preset, RESULT_SCHEMA, Reconstruction,
 };
 use crate::reconstruct::scatter::position_scatter_m;
-use crate::reconstruct::{Intervals, Loss, RefinedOptions, SegmentCriterion};
+use crate::reconstruct::{Intervals, Loss, SegmentCriterion};
+use crate::{Result, Scene};
 
 const NO_ORIENTATION: &str = "no orientation was fitted";
 const NO_DATA: &str = "the poses don't determine it";
@@ -29,27 +28,27 @@ const ONLY_A_BOUND: &str =
 const NO_INTERVAL: &str = "no end of the interval was found: the likelihood falls too slowly";
 const NO_NOISE: &str = "too few poses to tell the noise, and the scene states none";
 
-/// The reconstruction that `solved` stands for.
+/// The reconstruction that `fitted` stands for.
 pub(super) fn reconstruction(
     scene: &Scene,
-    refined: &RefinedScene,
-    solved: &Solved,
-    options: &RefinedOptions,
-) -> Reconstruction {
-    let best = &solved.optima[0];
+    fitted: &Fitted,
+    intervals: Intervals,
+) -> Result<Reconstruction> {
+    let refined = &fitted.refined;
+    let best = fitted.best();
     let has_spin: Vec<bool> = refined.bodies.iter().map(|body| body.has_spin).collect();
-    let collision = collision(scene, &best.solution.unknowns, &has_spin);
+    let collision = collision(scene, refined, &best.solution.unknowns)?;
     let layout = Layout::new(refined);
-    let derivatives = derivatives(scene, &layout, best, &has_spin);
-    let deviations = Deviations::new(best, solved.noise, derivatives);
-    let push = push(&collision, &deviations, solved.noise, solved.segments);
+    let derivatives = derivatives(scene, &layout, best, refined)?;
+    let deviations = Deviations::new(best, fitted.noise, derivatives);
+    let push = push(&collision, &deviations, fitted.noise, fitted.segments);
     let gaps = scene.gaps();
     let profile = Profile { scene: refined, gaps: &gaps, layout: &layout, optimum: best };
     let estimator = Estimator {
         deviations: &deviations,
-        profile: (options.intervals == Intervals::Profile).then_some(&profile),
+        profile: (intervals == Intervals::Profile).then_some(&profile),
     };
-    let fit = fit(scene, refined, solved);
+    let fit = fit(scene, fitted);
     let mass_ratio = collision.mass_ratio.map(|value| match (push.any, push.all) {
         (false, _) => Estimate::unknown(NO_IMPULSE),
         (true, false) => Estimate::unknown(ONLY_A_BOUND),
@@ -63,12 +62,12 @@ pub(super) fn reconstruction(
     let contact = collision.contact.filter(|_| push.any);
     let knows_point = contact_point_is_known(scene, &deviations)
         && (has_spin.contains(&true) || collision.restitution.is_ok());
-    let alternatives = alternatives(scene, solved, &layout, &has_spin);
-    let outliers = outliers(scene, refined, &best.solution, solved.noise.value);
-    let judged = match options.loss {
+    let alternatives = alternatives(scene, fitted, &layout)?;
+    let outliers = outliers(scene, refined, &best.solution, fitted.noise.value);
+    let judged = match fitted.loss {
         // Where half of the poses are held for wrong, it is rather the fit that is.
         Loss::Robust if 2 * outliers.len() < best.solution.residuals.len() => {
-            judged_fit(&fit, &outliers, refined, solved)
+            judged_fit(&fit, &outliers, fitted)
         }
         _ => fit.clone(),
     };
@@ -81,7 +80,7 @@ pub(super) fn reconstruction(
         scatter_m: position_scatter_m(scene, collision.time_s),
         ambiguous: !alternatives.is_empty(),
     };
-    Reconstruction {
+    Ok(Reconstruction {
         schema: RESULT_SCHEMA.to_string(),
         scene: scene.name().to_string(),
         preset: Preset::Refined,
@@ -97,17 +96,17 @@ pub(super) fn reconstruction(
         impulse: collision.impulse.into(),
         normal: contact.map(|contact| contact.normal_in_world.into_inner().into()),
         bodies: bodies(scene, &collision, &deviations),
-        gravity: Some(gravity(refined, best.solution.unknowns.tilt).into()),
-        effects: Vec::new(),
-        noise: Some(noise_report(&has_spin, solved.noise)),
-        uncertainty: all_noise_known(refined, solved.noise).then(|| deviations.table(names(scene))),
+        gravity: Some(collision.gravity.into()),
+        effects: effects(scene, fitted, &deviations),
+        noise: Some(noise_report(&has_spin, fitted.noise)),
+        uncertainty: all_noise_known(refined, fitted.noise).then(|| deviations.table(names(scene))),
         alternatives,
         outliers,
-        intervals: Some(options.intervals),
+        intervals: Some(intervals),
         fit,
-        phases: solved.phases.clone(),
+        phases: fitted.phases.clone(),
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
-    }
+    })
 }
 
 /// The spins tell the contact point to within a part of the smallest body.
@@ -116,13 +115,6 @@ fn contact_point_is_known(scene: &Scene, deviations: &Deviations) -> bool {
     let limit_m = 0.5 * extents.fold(f64::INFINITY, f64::min);
     let stds = &deviations.std[CONTACT_POINT..CONTACT_POINT + 3];
     stds.iter().all(|std| std.is_some_and(|std| std < limit_m))
-}
-
-/// The acceleration that all flights share, in m/s²: the scene's, tilted.
-fn gravity(scene: &RefinedScene, tilt: [f64; 2]) -> Vector3<f64> {
-    let [first, second] = scene.across.map(Vector3::from);
-    let along = Vector3::from(scene.down) + tilt[0] * first + tilt[1] * second;
-    scene.gravity_m_s2 * along.normalize()
 }
 
 /// Makes numbers with a deviation and an interval.
@@ -231,11 +223,11 @@ fn bodies(scene: &Scene, collision: &Collision, deviations: &Deviations) -> Vec<
         .collect()
 }
 
-fn fit(scene: &Scene, refined: &RefinedScene, solved: &Solved) -> Fit {
-    let best = &solved.optima[0];
+fn fit(scene: &Scene, fitted: &Fitted) -> Fit {
+    let best = fitted.best();
     let (positions, position_m2) = positions(&best.solution);
-    let (turns, turn_rad2) = turns(refined, &best.solution);
-    let noise = solved.noise.value;
+    let (turns, turn_rad2) = turns(&fitted.refined, &best.solution);
+    let noise = fitted.noise.value;
     let stated = scene.noise().is_some();
     let chi2 = stated
         .then(|| position_m2 / noise.position.powi(2) + turn_rad2 / noise.orientation.powi(2));
@@ -259,9 +251,9 @@ fn fit(scene: &Scene, refined: &RefinedScene, solved: &Solved) -> Fit {
 }
 
 /// The fit by which it is judged: a robust one without the poses that it holds for wrong.
-fn judged_fit(fit: &Fit, outliers: &[Outlier], refined: &RefinedScene, solved: &Solved) -> Fit {
-    let solution = &solved.optima[0].solution;
-    let noise = solved.noise.value;
+fn judged_fit(fit: &Fit, outliers: &[Outlier], fitted: &Fitted) -> Fit {
+    let solution = &fitted.best().solution;
+    let noise = fitted.noise.value;
     let rest = |channel: &str, (count, squares): (f64, f64), sigma: f64| {
         let wrong = outliers.iter().filter(|outlier| outlier.channel == channel);
         let (wrong_count, wrong_squares) = wrong.fold((0.0, 0.0), |(count, squares), outlier| {
@@ -271,7 +263,7 @@ fn judged_fit(fit: &Fit, outliers: &[Outlier], refined: &RefinedScene, solved: &
         if left.is_finite() { left.sqrt() } else { 0.0 }
     };
     let position_rmse = rest("position", positions(solution), noise.position);
-    let orientation_rmse = rest("orientation", turns(refined, solution), noise.orientation);
+    let orientation_rmse = rest("orientation", turns(&fitted.refined, solution), noise.orientation);
     let wrong: f64 = outliers.iter().map(|outlier| outlier.deviations.powi(2)).sum();
     let dof = fit.dof - 3 * outliers.len() as i64;
     Fit {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::model::set_noise;
 use super::noise::{KnownNoise, first_guess, positions, settle_noise, turns};
-use super::optimum::{Optimum, optimised};
+use super::optimum::{Optimum, optima_from};
 use super::parabolas::{Parabolas, Segment};
 use super::robust::{residual_cost, settle_robustly};
 use super::spins::{Search, may_turn_otherwise};
@@ -51,7 +51,8 @@ pub(super) fn solve(
         let started = Instant::now();
         let starts = starts(scene, parabolas, &segments, guess, search)?;
         let jumps_s = started.elapsed().as_secs_f64();
-        let mut optima = optimised(scene, &starts, parabolas.gaps())?;
+        let from: Vec<_> = starts.iter().map(|start| (start.unknowns.clone(), start.gap)).collect();
+        let mut optima = optima_from(scene, &from)?;
         let cost_initial = optima[0].solution.cost_initial;
         let noise = match (loss, stated) {
             (Loss::Robust, _) => settle_robustly(scene, &mut optima, guess, stated)?,

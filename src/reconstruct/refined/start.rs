@@ -214,6 +214,7 @@ fn start(
         contact_point: contact_start(scene, kinks, choice, &impulse, mass_ratio).into(),
         contact_basis: [[0.0; 3]; 2],
         log_mass_ratio: mass_ratio.ln(),
+        parameters: Vec::new(),
     }
 }
 

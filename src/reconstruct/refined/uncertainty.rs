@@ -35,6 +35,13 @@ impl<'a> Deviations<'a> {
         self.derivatives.row(index).transpose()
     }
 
+    /// The deviation of one of the unknowns themselves; `None` where the data leave it open.
+    pub(super) fn of_unknown(&self, column: usize) -> Option<f64> {
+        let mut gradient = DVector::zeros(self.optimum.solution.size);
+        gradient[column] = 1.0;
+        self.optimum.covariance.std(&gradient)
+    }
+
     /// Student's factor for a 95 % interval of number `index`. Where noise is estimated its degrees
     /// of freedom are Welch and Satterthwaite's: those of each channel, by its share in the
     /// variance.

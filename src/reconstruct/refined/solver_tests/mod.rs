@@ -56,6 +56,7 @@ impl Case {
                 inertia_per_mass: principal_inertia_per_mass(shape).into(),
                 poses: Vec::new(),
                 has_spin: true,
+                size: [0.1; 3],
             })
             .collect();
         Case {
@@ -66,6 +67,9 @@ impl Case {
                 tilt_std_rad: 0.01,
                 bodies,
                 plane_normal: if plane { normal.into() } else { [0.0; 3] },
+                camera: [0.0; 3],
+                laws: Vec::new(),
+                parameters: Vec::new(),
             },
             problem: RefinedProblem {
                 start: RefinedUnknowns {
@@ -76,11 +80,14 @@ impl Case {
                     contact_point: [0.13, 1.08, -0.16],
                     contact_basis: [[0.0; 3]; 2],
                     log_mass_ratio: if count == 2 { 0.4 } else { 0.0 },
+                    parameters: Vec::new(),
                 },
                 earliest_s: -0.05,
                 latest_s: 0.06,
                 hold: RefinedHold { collision_time: false, log_mass_ratio: false },
                 restitution: RestitutionPin { value: 0.0, weight: 0.0 },
+                most_iterations: 50,
+                with_jacobian: false,
             },
         }
         .spinning(Vector3::new(4.0, -6.0, 3.0))

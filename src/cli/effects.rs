@@ -1,0 +1,142 @@
+//! `smash effects`: the catalogue, and the user's own effects.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use smash::effect::{Effect, Parameter, Scope, catalogue, find};
+use smash::files::{print_bytes, shell_word};
+
+use super::table::aligned;
+
+/// Shows the effects that a model can be given, and checks effect files
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(clap::Subcommand)]
+enum Task {
+    /// Lists the catalogue
+    List {
+        /// Print JSON instead of text
+        #[arg(long)]
+        json: bool,
+    },
+    /// Shows an effect: its law, its parameters, how it looks, what it is confused with
+    Show {
+        /// A name of the catalogue, or the path of an effect file
+        name: String,
+        /// Print JSON instead of text
+        #[arg(long)]
+        json: bool,
+    },
+    /// Checks an effect file: its units, that it does nothing at the null values, its derivatives
+    Check {
+        /// The effect file (TOML); `-` is standard input
+        file: PathBuf,
+        /// Print JSON instead of text
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// Lists, shows or checks.
+///
+/// # Errors
+/// There is no such effect, or its file isn't good.
+pub fn run(arguments: &Arguments) -> smash::Result<()> {
+    match &arguments.task {
+        Task::List { json } => print(*json, catalogue(), || list(catalogue())),
+        Task::Show { name, json } => {
+            let effect = find(name)?;
+            print(*json, &*effect, || described(&effect, name))
+        }
+        Task::Check { file, json } => {
+            let effect = Effect::read(file)?;
+            print(*json, &effect, || passed(&effect, &file.display().to_string()))
+        }
+    }
+}
+
+fn print<T: Serialize + ?Sized>(
+    as_json: bool,
+    value: &T,
+    in_words: impl Fn() -> String,
+) -> smash::Result<()> {
+    let mut text = if as_json {
+        serde_json::to_string_pretty(value).expect("effects hold text and finite numbers")
+    } else {
+        in_words()
+    };
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    print_bytes(text.as_bytes())
+}
+
+fn list(effects: &[Effect]) -> String {
+    let row = |effect: &Effect| {
+        vec![effect.name.clone(), owner(effect.scope).to_owned(), effect.title.clone()]
+    };
+    let rows: Vec<_> = effects.iter().map(row).collect();
+    format!("{}\nNext\n  smash effects show {}\n", aligned(&rows), effects[0].name)
+}
+
+fn described(effect: &Effect, asked: &str) -> String {
+    let laws = effect.sources.iter().map(|(hook, law)| vec![hook.to_string(), law.clone()]);
+    let parameters: Vec<_> = effect.parameters.iter().map(parameter).collect();
+    let mut text = format!(
+        "{}: {}\n\nLaw, on {}\n{}\nParameters\n{}",
+        effect.name,
+        effect.title,
+        owner(effect.scope),
+        aligned(&laws.collect::<Vec<_>>()),
+        aligned(&parameters),
+    );
+    let help = &effect.help;
+    let needs: Vec<_> = effect.needs.iter().map(|need| need.in_words()).collect();
+    for (title, words) in [
+        ("Needs", needs.join(", ")),
+        ("Looks like", help.looks_like.clone()),
+        ("Confused with", help.confused_with.join(", ")),
+        ("To tell them apart", help.tell_apart.clone()),
+        ("Source", help.source.clone()),
+    ] {
+        if !words.is_empty() {
+            text.push_str(&format!("\n{title}\n  {words}\n"));
+        }
+    }
+    format!("{text}\nNext\n  smash reconstruct SCENE --with {}\n", shell_word(asked))
+}
+
+fn parameter(parameter: &Parameter) -> Vec<String> {
+    let [low, high] = parameter.bounds;
+    let null = match parameter.null.as_slice() {
+        [single] => single.to_string(),
+        list => format!("{list:?}"),
+    };
+    let unit = parameter.unit.to_string();
+    let range = format!("null {null}, {low} to {high}");
+    vec![parameter.name.clone(), unit, range, parameter.typical.clone()]
+}
+
+fn passed(effect: &Effect, file: &str) -> String {
+    let hooks: Vec<_> = effect.sources.keys().map(|hook| hook.name()).collect();
+    format!(
+        "{file}: `{}` is good: {}\n  its units fit, it does nothing at its null values, and its \
+         values and slopes are finite, also at rest and without spin\n\nNext\n  \
+         smash reconstruct SCENE --with {}\n",
+        effect.name,
+        hooks.join(", "),
+        shell_word(file),
+    )
+}
+
+fn owner(scope: Scope) -> &'static str {
+    match scope {
+        Scope::Body => "each body",
+        Scope::Scene => "the scene",
+        Scope::Contact => "the contact",
+    }
+}

@@ -1,0 +1,107 @@
+//! An effect as a command line asks for it.
+
+use std::collections::BTreeMap;
+
+use super::{Effect, Parameter, find};
+use crate::words::{did_you_mean, limit, quoted};
+use crate::{Error, ErrorKind, Result};
+
+/// An effect, perhaps on one body alone, perhaps with parameters that are known.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct EffectRequest {
+    /// What is asked for.
+    pub effect: Effect,
+    /// The body's name; `None` is every dynamic body.
+    pub body: Option<String>,
+    /// The parameters that aren't unknown, in their units: 1 or 3 numbers.
+    pub fixed: BTreeMap<String, Vec<f64>>,
+}
+
+impl EffectRequest {
+    /// Reads `NAME[@BODY][:parameter=value,…]`, such as `quadratic_drag@a:k=0.15` or
+    /// `./wind.toml:air=[1,0,0.5]`. A path ends with `.toml`.
+    ///
+    /// # Errors
+    /// There is no such effect or parameter, or a value isn't within its bounds.
+    pub fn parse(text: &str) -> Result<EffectRequest> {
+        let (name, rest) = text.split_at(end_of_name(text));
+        let (body, values) = match rest.split_once(':') {
+            Some((body, values)) => (body, Some(values)),
+            None => (rest, None),
+        };
+        let body = body.strip_prefix('@');
+        let in_request = |problem: &str, mend: &str| {
+            Error::new(ErrorKind::Invalid, format!("{}: {problem}", quoted(text))).mend(mend)
+        };
+        if name.is_empty() {
+            return Err(in_request("the effect's name is missing", "write NAME[@BODY][:k=0.1]"));
+        }
+        if body == Some("") {
+            return Err(in_request("the body's name is missing", "write it after `@`"));
+        }
+        let effect = find(name)?.into_owned();
+        let mut fixed = BTreeMap::new();
+        for setting in values.map(settings).unwrap_or_default() {
+            let Some((name, value)) = setting.split_once('=') else {
+                let problem = format!("{} sets nothing", quoted(setting));
+                return Err(in_request(&problem, "write parameter=value, such as k=0.1"));
+            };
+            let (name, value) = known_value(&effect, name.trim(), value.trim())?;
+            if fixed.insert(name.clone(), value).is_some() {
+                return Err(in_request(&format!("`{name}` is set twice"), "keep one of the two"));
+            }
+        }
+        Ok(EffectRequest { effect, body: body.map(str::to_owned), fixed })
+    }
+}
+
+/// A path may hold `@` and `:` itself.
+fn end_of_name(text: &str) -> usize {
+    let after_path = text.match_indices(".toml").map(|(at, found)| at + found.len());
+    let mut ends =
+        after_path.filter(|&end| text[end..].is_empty() || text[end..].starts_with(['@', ':']));
+    ends.next().or_else(|| text.find(['@', ':'])).unwrap_or(text.len())
+}
+
+/// The settings between the commas that stand outside of brackets.
+fn settings(text: &str) -> Vec<&str> {
+    let mut depth = 0;
+    let outside = |character: char| {
+        depth += i32::from(character == '[') - i32::from(character == ']');
+        character == ',' && depth == 0
+    };
+    text.split(outside).collect()
+}
+
+/// A parameter's name, and its value as 1 or 3 numbers.
+fn known_value(effect: &Effect, name: &str, value: &str) -> Result<(String, Vec<f64>)> {
+    let Some(parameter) = effect.parameters.iter().find(|known| known.name == name) else {
+        let names: Vec<&str> = effect.parameters.iter().map(|known| known.name.as_str()).collect();
+        let problem = format!("`{}` has no parameter {}", effect.name, quoted(name));
+        return Err(Error::new(ErrorKind::Invalid, problem).mend(did_you_mean(name, &names)));
+    };
+    let place = format!("{}:{name}", effect.name);
+    let numbers = numbers(value, parameter).ok_or_else(|| {
+        let form = if parameter.null.len() == 3 { "[x,y,z] without spaces" } else { "one number" };
+        Error::invalid(&place, format!("{} is no value of it", quoted(value)))
+            .mend(format!("write {form}, in {}", parameter.unit))
+    })?;
+    let [low, high] = parameter.bounds;
+    match numbers.iter().find(|number| !(low..=high).contains(*number)) {
+        Some(outside) => {
+            let problem = format!("{} is outside its bounds", limit(*outside));
+            let mend = format!("{} to {} {}", limit(low), limit(high), parameter.unit);
+            Err(Error::invalid(place, problem).mend(mend))
+        }
+        None => Ok((name.to_owned(), numbers)),
+    }
+}
+
+fn numbers(text: &str, parameter: &Parameter) -> Option<Vec<f64>> {
+    let parts: Vec<&str> = match parameter.null.len() {
+        1 => vec![text],
+        _ => text.strip_prefix('[')?.strip_suffix(']')?.split(',').collect(),
+    };
+    let numbers: Option<Vec<f64>> = parts.iter().map(|part| part.trim().parse().ok()).collect();
+    numbers.filter(|numbers| numbers.len() == parameter.null.len())
+}

@@ -1,0 +1,175 @@
+//! Which effects act on which bodies, and their laws as the solver takes them.
+
+use std::collections::BTreeMap;
+
+use crate::bridge::refined::ffi::{ActingLaw, LawInstruction, ParameterRule, RefinedScene};
+use crate::effect::{Effect, EffectRequest, Hook, INPUTS, Need, Program, Scan, Scope};
+use crate::words::{did_you_mean, quoted};
+use crate::{Error, Result, Scene};
+
+/// An effect on one body, or on all.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Instance {
+    pub(crate) effect: Effect,
+    /// Which dynamic body; `None` for all.
+    pub(crate) body: Option<usize>,
+    /// Parameters that aren't unknown.
+    pub(crate) fixed: BTreeMap<String, Vec<f64>>,
+}
+
+/// An effect of a model, with the place of its parameters.
+#[derive(Debug, Clone)]
+pub(crate) struct Acting {
+    pub(crate) instance: Instance,
+    /// In [`RefinedScene::parameters`].
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+}
+
+impl Instance {
+    /// `NAME@BODY`, or `NAME` where it acts on all.
+    pub(crate) fn label(&self, scene: &Scene) -> String {
+        match self.body {
+            Some(body) => format!("{}@{}", self.effect.name, scene.bodies()[body].name),
+            None => self.effect.name.clone(),
+        }
+    }
+
+    /// The index of the bodies that it acts on.
+    pub(crate) fn bodies(&self, scene: &RefinedScene) -> Vec<usize> {
+        match self.body {
+            Some(body) => vec![body],
+            None => (0..scene.bodies.len()).collect(),
+        }
+    }
+
+    /// The parameter that has to be scanned for a start, and its place among the scalars.
+    pub(crate) fn scan(&self) -> Option<(Scan, usize)> {
+        let mut place = 0;
+        for parameter in &self.effect.parameters {
+            match parameter.scan {
+                Some(scan) if !self.fixed.contains_key(&parameter.name) => {
+                    return Some((scan, place));
+                }
+                _ => place += parameter.null.len(),
+            }
+        }
+        None
+    }
+
+    /// Where the parameters start: where they are known, or do nothing.
+    pub(crate) fn null(&self) -> Vec<f64> {
+        let parameters = self.effect.parameters.iter();
+        parameters.flat_map(|p| self.fixed.get(&p.name).unwrap_or(&p.null)).copied().collect()
+    }
+
+    /// Adds the laws to a scene.
+    pub(crate) fn act_on(&self, scene: &mut RefinedScene) -> Acting {
+        let first = scene.parameters.len();
+        for parameter in &self.effect.parameters {
+            // One pose or another: nothing between them to be optimised.
+            let is_discrete = parameter.scan == Some(Scan::ObservationTimes);
+            let [low, high] = parameter.bounds;
+            let held = is_discrete || self.fixed.contains_key(&parameter.name);
+            scene.parameters.extend(parameter.null.iter().map(|_| ParameterRule {
+                low,
+                high,
+                held,
+            }));
+        }
+        let count = scene.parameters.len() - first;
+        let effect = scene.laws.last().map_or(0, |law| law.effect + 1);
+        for body in self.bodies(scene) {
+            let is_opposite = self.effect.scope == Scope::Contact && body == 1;
+            for (hook, program) in &self.effect.laws {
+                scene.laws.push(ActingLaw {
+                    body,
+                    effect,
+                    sign: if is_opposite { -1.0 } else { 1.0 },
+                    first_parameter: first,
+                    parameter_count: count,
+                    ..acting_law(*hook, program)
+                });
+            }
+        }
+        Acting { instance: self.clone(), first, count }
+    }
+}
+
+/// What `request` asks for in `scene`: without a body, an effect of bodies is one of each.
+///
+/// # Errors
+/// The scene has no such body, or can't show the effect.
+pub(crate) fn instances(scene: &Scene, request: &EffectRequest) -> Result<Vec<Instance>> {
+    let EffectRequest { effect, body, fixed } = request;
+    if let Some(lacking) = lacking(scene, effect) {
+        return Err(Error::invalid(&effect.name, format!("this scene {lacking}"))
+            .mend("leave the effect out, or complete the scene"));
+    }
+    let instance = |body| Instance { effect: effect.clone(), body, fixed: fixed.clone() };
+    let names: Vec<&str> = scene.bodies().iter().map(|body| body.name.as_str()).collect();
+    match (effect.scope, body) {
+        (Scope::Body, None) => Ok((0..names.len()).map(|body| instance(Some(body))).collect()),
+        // Against a plane the contact is the body's own.
+        (Scope::Contact, None) if names.len() == 1 => Ok(vec![instance(Some(0))]),
+        (Scope::Scene | Scope::Contact, None) => Ok(vec![instance(None)]),
+        (scope, Some(name)) => {
+            let Some(index) = names.iter().position(|known| known == name) else {
+                let problem = format!("there is no dynamic body {}", quoted(name));
+                return Err(Error::invalid(&effect.name, problem).mend(did_you_mean(name, &names)));
+            };
+            match scope {
+                Scope::Body => Ok(vec![instance(Some(index))]),
+                Scope::Contact if names.len() == 1 => Ok(vec![instance(Some(index))]),
+                _ => Err(Error::invalid(&effect.name, "acts on all bodies together")
+                    .mend(format!("leave `@{name}` out"))),
+            }
+        }
+    }
+}
+
+/// All instances of an effect that a scene can show: of each body, or of all.
+pub(crate) fn possible(scene: &Scene, effect: &Effect) -> Vec<Instance> {
+    let request = EffectRequest { effect: effect.clone(), body: None, fixed: BTreeMap::new() };
+    instances(scene, &request).unwrap_or_default()
+}
+
+/// What `scene` hasn't got that `effect` needs.
+fn lacking(scene: &Scene, effect: &Effect) -> Option<&'static str> {
+    let has_orientation = || {
+        let poses = scene.bodies().iter().flat_map(|body| &body.observations);
+        poses.filter(|pose| pose.world_from_body.is_some()).count() > 0
+    };
+    effect.needs.iter().find_map(|need| match need {
+        Need::Camera => scene.camera().is_none().then_some("states no camera"),
+        Need::Plane => scene.plane().is_none().then_some("has no static body"),
+        Need::TwoBodies => (scene.bodies().len() < 2).then_some("has only one dynamic body"),
+        Need::Orientation => (!has_orientation()).then_some("has no orientations"),
+        Need::Gravity => (scene.gravity_m_s2() == 0.0).then_some("has no gravity"),
+    })
+}
+
+/// A law without its bodies and parameters.
+fn acting_law(hook: Hook, program: &Program) -> ActingLaw {
+    ActingLaw {
+        body: 0,
+        effect: 0,
+        hook: hook as u8,
+        sign: 1.0,
+        first_parameter: 0,
+        parameter_count: 0,
+        registers: program.registers.max(INPUTS as u16 + 1),
+        result: program.result,
+        instructions: program
+            .instructions
+            .iter()
+            .map(|step| LawInstruction {
+                operation: step.operation as u8,
+                target: step.target,
+                left: step.left,
+                right: step.right,
+                value: step.value,
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,119 @@
+//! A model fitted to a scene, and the next one: the same with an effect more, from where this one
+//! ended.
+
+use std::ops::Range;
+
+use super::acting::{Acting, Instance};
+use super::model::{refined_scene, set_noise};
+use super::noise::{KnownNoise, LEAST_NOISE, positions, settle_noise, turns};
+use super::optimum::{Optimum, optima_from};
+use super::parabolas::Parabolas;
+use super::robust::settle_robustly;
+use super::solve::{Solved, solve};
+use super::starts::starts;
+use crate::bridge::refined::ffi::RefinedScene;
+use crate::reconstruct::{Loss, PhaseReport};
+use crate::scene::Noise;
+use crate::{Result, Scene};
+
+/// A model of a scene at its optimum.
+#[derive(Debug, Clone)]
+pub(crate) struct Fitted {
+    pub(crate) refined: RefinedScene,
+    /// The effects beyond the base model.
+    pub(crate) acting: Vec<Acting>,
+    /// Best first; never empty.
+    pub(crate) optima: Vec<Optimum>,
+    pub(crate) noise: KnownNoise,
+    pub(crate) loss: Loss,
+    pub(crate) segments: usize,
+    pub(crate) phases: Vec<PhaseReport>,
+    stated: Option<Noise>,
+}
+
+impl Fitted {
+    /// The base model's.
+    pub(crate) fn base(scene: &Scene, tilt_std_rad: f64, loss: Loss) -> Result<Fitted> {
+        let stated = scene.noise().map(|noise| Noise {
+            position: noise.position.max(LEAST_NOISE.position),
+            orientation: noise.orientation.max(LEAST_NOISE.orientation),
+        });
+        let parabolas = Parabolas::new(scene);
+        let mut refined = refined_scene(scene, LEAST_NOISE, tilt_std_rad);
+        let Solved { optima, noise, segments, phases } =
+            solve(&mut refined, &parabolas, stated, loss)?;
+        Ok(Fitted { refined, acting: Vec::new(), optima, noise, loss, segments, phases, stated })
+    }
+
+    /// With one effect more. At the same noise χ² is never larger than without it.
+    ///
+    /// # Errors
+    /// No start leads to a solution.
+    pub(crate) fn with(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
+        let mut refined = self.refined.clone();
+        let acting = instance.act_on(&mut refined);
+        let starts = starts(self, scene, &refined, &acting)?;
+        let optima = optima_from(&refined, &starts)?;
+        let mut fitted = Fitted { refined, optima, ..self.clone() };
+        fitted.acting.push(acting);
+        fitted.settle()?;
+        Ok(fitted)
+    }
+
+    /// Refitted to other noise or other poses, from where it is.
+    pub(crate) fn settle(&mut self) -> Result<()> {
+        match (self.loss, self.stated) {
+            (Loss::Robust, stated) => {
+                let guess = self.noise.value;
+                set_noise(&mut self.refined, guess);
+                self.noise = settle_robustly(&mut self.refined, &mut self.optima, guess, stated)?;
+            }
+            (Loss::Squares, Some(_)) => {}
+            (Loss::Squares, None) => {
+                let guess = self.noise.value;
+                self.noise = settle_noise(&mut self.refined, &mut self.optima, guess)?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn best(&self) -> &Optimum {
+        &self.optima[0]
+    }
+
+    /// Where the tangents of an effect's free parameters stand among the unknowns'.
+    pub(crate) fn columns(&self, acting: &Acting) -> Range<usize> {
+        let free = |range: Range<usize>| {
+            self.refined.parameters[range].iter().filter(|rule| !rule.held).count()
+        };
+        let size = self.best().solution.size;
+        let after = free(acting.first..self.refined.parameters.len());
+        size - after..size - after + free(acting.first..acting.first + acting.count)
+    }
+
+    /// −2 ln L but for a constant: χ², with the tilt's prior, where the noise is stated; else, with
+    /// each channel's noise at its most likely, Σ n ln(RSS / n).
+    pub(crate) fn deviance(&self) -> f64 {
+        let solution = &self.best().solution;
+        if self.stated.is_some() {
+            return 2.0 * solution.cost;
+        }
+        let of = |(count, squares): (f64, f64), least: f64| match count > 0.0 {
+            true => count * (squares / count).max(least * least).ln(),
+            false => 0.0,
+        };
+        of(positions(solution), LEAST_NOISE.position)
+            + of(turns(&self.refined, solution), LEAST_NOISE.orientation)
+    }
+
+    /// How many numbers were measured.
+    pub(crate) fn numbers(&self) -> f64 {
+        let solution = &self.best().solution;
+        positions(solution).0 + turns(&self.refined, solution).0
+    }
+
+    /// Whether the noise was stated.
+    pub(crate) fn has_stated_noise(&self) -> bool {
+        self.stated.is_some()
+    }
+}

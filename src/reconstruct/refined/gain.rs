@@ -1,0 +1,94 @@
+//! Score tests: how much χ² would fall by an effect, told from the slopes at its null alone.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::acting::Instance;
+use super::fitted::Fitted;
+use super::optimum::{evaluated, information};
+use crate::Result;
+use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
+use crate::scene::Gap;
+
+/// A model as its tangent: residuals over their deviations, and their derivatives by the unknowns;
+/// the tilt's prior is two more rows.
+pub(crate) struct Linearised {
+    pub(crate) residuals: DVector<f64>,
+    pub(crate) jacobian: DMatrix<f64>,
+}
+
+/// The tangent of a model at `unknowns`.
+pub(crate) fn linearised(
+    refined: &RefinedScene,
+    unknowns: &RefinedUnknowns,
+    gap: Gap,
+) -> Result<Linearised> {
+    let solution = evaluated(refined, unknowns, gap)?;
+    let mut residuals = Vec::new();
+    let poses =
+        refined.bodies.iter().flat_map(|body| body.poses.iter().map(|p| (body.has_spin, p)));
+    for ((has_spin, pose), residual) in poses.zip(&solution.residuals) {
+        residuals.extend(residual.position_m.map(|r| r / pose.position_std_m));
+        if has_spin && pose.has_orientation {
+            residuals.extend(residual.turn_rad.map(|r| r / pose.orientation_std_rad));
+        }
+    }
+    let data = residuals.len();
+    let mut jacobian = DMatrix::from_row_slice(data, solution.size, &solution.jacobian)
+        .resize_vertically(data + 2, 0.0);
+    let prior = information(&solution, &solution.prior_information);
+    let tilted = (0..solution.size).filter(|&i| prior[(i, i)] > 0.0);
+    for ((row, column), tilt) in (data..).zip(tilted).zip(unknowns.tilt) {
+        jacobian[(row, column)] = prior[(column, column)].sqrt();
+        residuals.push(tilt * prior[(column, column)].sqrt());
+    }
+    residuals.resize(data + 2, 0.0);
+    Ok(Linearised { residuals: DVector::from_vec(residuals), jacobian })
+}
+
+/// By how much χ² would fall with each of `candidates`, whose scalars are given, all else refitted;
+/// exact where the model is linear.
+pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Result<Vec<f64>> {
+    let mut refined = fitted.refined.clone();
+    let best = fitted.best();
+    let mut unknowns = best.solution.unknowns.clone();
+    let base = best.solution.size;
+    let mut columns = Vec::new();
+    let mut next = base;
+    for (instance, values) in candidates {
+        let acting = instance.act_on(&mut refined);
+        // What a scan goes through is held while it does.
+        if let Some((_, place)) = instance.scan() {
+            refined.parameters[acting.first + place].held = true;
+        }
+        unknowns.parameters.extend(values);
+        let free = refined.parameters[acting.first..].iter().filter(|rule| !rule.held).count();
+        columns.push(next..next + free);
+        next += free;
+    }
+    let tangent = linearised(&refined, &unknowns, best.gap)?;
+    let (known, added) = tangent.jacobian.columns_range_pair(..base, base..);
+    let basis = orthonormal(known.into_owned());
+    let apart = |m: &DMatrix<f64>| m - &basis * (basis.tr_mul(m));
+    let residuals = &tangent.residuals - &basis * basis.tr_mul(&tangent.residuals);
+    let added = apart(&added.into_owned());
+    let gain = |range: std::ops::Range<usize>| {
+        let part = added.columns(range.start - base, range.len()).into_owned();
+        orthonormal(part).tr_mul(&residuals).norm_squared()
+    };
+    Ok(columns.into_iter().map(gain).collect())
+}
+
+/// An orthonormal basis of the columns' span; directions that are rounding are left out.
+fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
+    /// Of a column's length.
+    const ROUNDING: f64 = 1e-7;
+    for mut column in columns.column_iter_mut() {
+        let length = column.norm();
+        if length > 0.0 {
+            column /= length;
+        }
+    }
+    let svd = columns.svd(true, false);
+    let rank = svd.singular_values.iter().filter(|value| **value > ROUNDING).count();
+    svd.u.map_or_else(|| DMatrix::zeros(0, 0), |u| u.columns(0, rank).into_owned())
+}

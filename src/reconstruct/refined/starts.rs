@@ -1,0 +1,155 @@
+//! Where a model with one effect more starts: at the optimum without it, and at what a scan of
+//! those parameters finds that the null hides.
+
+use super::acting::{Acting, Instance};
+use super::fitted::Fitted;
+use super::gain::{gains, linearised};
+use super::model::refined_scene;
+use super::parabolas::Parabolas;
+use super::solve::solve;
+use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
+use crate::effect::Scan;
+use crate::reconstruct::Loss;
+use crate::scene::Gap;
+use crate::{Result, Scene};
+
+/// Optima of the nested model that are tried.
+const MOST_OPTIMA: usize = 3;
+/// Further optima whose ½ χ² is larger by more have lost.
+const HOPELESS: f64 = 40.0;
+/// Points of a scan that are tried.
+const MOST_POINTS: usize = 3;
+/// Delays of a time scan, in frames.
+const FRAMES: [f64; 10] = [-3.0, -2.0, -1.5, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0, 3.0];
+
+/// Unknowns, and the segment that the collision time starts in.
+pub(super) type Start = (RefinedUnknowns, Gap);
+
+/// The starts of `nested` with `acting` added, which `refined` holds already.
+pub(super) fn starts(
+    nested: &Fitted,
+    scene: &Scene,
+    refined: &RefinedScene,
+    acting: &Acting,
+) -> Result<Vec<Start>> {
+    let null = acting.instance.null();
+    let least = nested.best().solution.cost;
+    let mut starts: Vec<Start> = nested
+        .optima
+        .iter()
+        .take(MOST_OPTIMA)
+        .filter(|optimum| optimum.solution.cost <= least + HOPELESS)
+        .map(|optimum| (extended(&optimum.solution.unknowns, &null), optimum.gap))
+        .collect();
+    match acting.instance.scan() {
+        None => starts.extend(beside_a_flat_null(refined, acting, &starts[0])?),
+        Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)?),
+        Some((_, place)) => {
+            let points = points(scene, &acting.instance);
+            let gains = scanned(nested, &acting.instance, place, &points)?;
+            let mut order: Vec<usize> = (0..points.len()).collect();
+            order.sort_by(|a, b| gains[*b].total_cmp(&gains[*a]));
+            let (unknowns, gap) = starts[0].clone();
+            starts.truncate(1);
+            starts.extend(order.iter().take(MOST_POINTS).map(|&index| {
+                let mut start = unknowns.clone();
+                start.parameters[acting.first + place] = points[index];
+                (start, gap)
+            }));
+        }
+    }
+    Ok(starts)
+}
+
+/// How much χ² would fall by an instance whose scanned parameter is at each of `points`.
+pub(crate) fn scanned(
+    nested: &Fitted,
+    instance: &Instance,
+    place: usize,
+    points: &[f64],
+) -> Result<Vec<f64>> {
+    let mut candidates = Vec::new();
+    for point in points {
+        let mut null = instance.null();
+        null[place] = *point;
+        candidates.push((instance.clone(), null));
+    }
+    gains(nested, &candidates)
+}
+
+/// The values of the scanned parameter that make a difference.
+pub(crate) fn points(scene: &Scene, instance: &Instance) -> Vec<f64> {
+    let Some((scan, _)) = instance.scan() else { return Vec::new() };
+    let bodies = scene.bodies().iter().enumerate();
+    let stamps = bodies
+        .filter(|(index, _)| instance.body.is_none_or(|body| body == *index))
+        .flat_map(|(_, body)| &body.observations)
+        .map(|seen| seen.time_s);
+    let mut times: Vec<f64> = stamps.collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    match scan {
+        Scan::ObservationTimes => times,
+        // Before the second pose and after the last but one, the event and the pose are one.
+        Scan::GapTimes => times.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect(),
+        Scan::Frames => FRAMES.iter().map(|frames| frames * frame_s(scene, &times)).collect(),
+    }
+}
+
+fn frame_s(scene: &Scene, times: &[f64]) -> f64 {
+    let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    scene.fps().map_or(shortest, |fps| 1.0 / fps)
+}
+
+fn extended(unknowns: &RefinedUnknowns, null: &[f64]) -> RefinedUnknowns {
+    let mut extended = unknowns.clone();
+    extended.parameters.extend(null);
+    extended
+}
+
+/// Where nothing depends on a parameter at the null, a start with all of them a typical size away.
+fn beside_a_flat_null(
+    refined: &RefinedScene,
+    acting: &Acting,
+    (unknowns, gap): &Start,
+) -> Result<Vec<Start>> {
+    let flat = linearised(refined, unknowns, *gap)?;
+    let free = refined.parameters[acting.first..].iter().filter(|rule| !rule.held).count();
+    let columns = flat.jacobian.columns(flat.jacobian.ncols() - free, free);
+    if columns.column_iter().all(|column| column.norm() > 0.0) {
+        return Ok(Vec::new());
+    }
+    let scales =
+        acting.instance.effect.parameters.iter().flat_map(|p| p.null.iter().map(|_| p.scale));
+    let mut away = unknowns.clone();
+    for (index, scale) in scales.enumerate() {
+        let rule = &refined.parameters[acting.first + index];
+        let value = &mut away.parameters[acting.first + index];
+        if !rule.held {
+            *value = if *value + scale <= rule.high { *value + scale } else { *value - scale };
+            *value = value.clamp(rule.low, rule.high);
+        }
+    }
+    Ok(vec![(away, *gap)])
+}
+
+/// The base model solved anew with a body's stamps moved: the delay may be more than a segment.
+fn delayed(nested: &Fitted, scene: &Scene, acting: &Acting, place: usize) -> Result<Vec<Start>> {
+    let known = &nested.best().solution.unknowns.parameters;
+    let mut found: Vec<(f64, Start)> = Vec::new();
+    for delay_s in points(scene, &acting.instance) {
+        let Some(moved) = scene.delayed(acting.instance.body, -delay_s) else { continue };
+        let parabolas = Parabolas::new(&moved);
+        let mut refined = refined_scene(&moved, nested.noise.value, nested.refined.tilt_std_rad);
+        let Ok(solved) = solve(&mut refined, &parabolas, Some(nested.noise.value), Loss::Squares)
+        else {
+            continue;
+        };
+        let mut unknowns = solved.optima[0].solution.unknowns.clone();
+        unknowns.parameters = [known.as_slice(), &acting.instance.null()].concat();
+        unknowns.parameters[acting.first + place] = delay_s;
+        found.push((solved.optima[0].solution.cost, (unknowns, solved.optima[0].gap)));
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(found.into_iter().take(MOST_POINTS).map(|(_, start)| start).collect())
+}
