@@ -8,6 +8,7 @@
 
 pub mod batch;
 pub mod compare;
+pub mod diagnose;
 pub mod effect;
 pub mod files;
 pub mod import;
@@ -26,6 +27,7 @@ mod words;
 pub use nalgebra;
 
 pub use compare::{Comparison, compare};
+pub use diagnose::{Diagnosis, diagnose};
 pub use error::{Error, ErrorKind, Result};
 pub use reconstruct::{Options, Reconstruction, reconstruct, reconstruct_with_progress};
 pub use scene::Scene;

@@ -3,6 +3,7 @@
 use schemars::generate::SchemaSettings;
 
 use crate::compare::Comparison;
+use crate::diagnose::Diagnosis;
 use crate::effect::file::EffectFile;
 use crate::json::pretty;
 use crate::reconstruct::Reconstruction;
@@ -19,6 +20,8 @@ pub enum SchemaKind {
     Result,
     /// Results against the poses and each other: `smash.comparison/1`
     Comparison,
+    /// Which effect the model lacks: `smash.diagnosis/1`
+    Diagnosis,
     /// A law that the base model lacks (TOML)
     Effect,
     /// What to simulate: `smash.simulation/1`
@@ -37,6 +40,7 @@ pub fn schema(kind: SchemaKind) -> String {
         SchemaKind::Scene => generator.into_root_schema_for::<SceneFile>(),
         SchemaKind::Result => generator.into_root_schema_for::<Reconstruction>(),
         SchemaKind::Comparison => generator.into_root_schema_for::<Comparison>(),
+        SchemaKind::Diagnosis => generator.into_root_schema_for::<Diagnosis>(),
         SchemaKind::Effect => generator.into_root_schema_for::<EffectFile>(),
         SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),
         SchemaKind::Truth => generator.into_root_schema_for::<Truth>(),

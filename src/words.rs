@@ -67,3 +67,16 @@ pub(crate) fn limit(value: f64) -> String {
     let is_short = value == 0.0 || (1e-4..1e7).contains(&value.abs());
     if is_short { value.to_string() } else { format!("{value:e}") }
 }
+
+/// `value` to so many significant digits, in powers of ten where it is very small or large.
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let exponent = value.abs().log10().floor() as i32;
+    if !(-5..7).contains(&exponent) {
+        return format!("{value:.*e}", digits - 1);
+    }
+    let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+    format!("{value:.decimals$}")
+}

@@ -6,7 +6,7 @@ use serde::Serialize;
 use smash::effect::{Effect, Parameter, Scope, catalogue, find};
 use smash::files::{print_bytes, shell_word};
 
-use super::table::aligned;
+use super::table::{aligned, lines};
 
 /// Shows the effects that a model can be given, and checks effect files
 #[derive(clap::Args)]
@@ -85,14 +85,13 @@ fn list(effects: &[Effect]) -> String {
 
 fn described(effect: &Effect, asked: &str) -> String {
     let laws = effect.sources.iter().map(|(hook, law)| vec![hook.to_string(), law.clone()]);
-    let parameters: Vec<_> = effect.parameters.iter().map(parameter).collect();
     let mut text = format!(
         "{}: {}\n\nLaw, on {}\n{}\nParameters\n{}",
         effect.name,
         effect.title,
         owner(effect.scope),
         aligned(&laws.collect::<Vec<_>>()),
-        aligned(&parameters),
+        parameters(&effect.parameters),
     );
     let help = &effect.help;
     let needs: Vec<_> = effect.needs.iter().map(|need| need.in_words()).collect();
@@ -110,15 +109,23 @@ fn described(effect: &Effect, asked: &str) -> String {
     format!("{text}\nNext\n  smash reconstruct SCENE --with {}\n", shell_word(asked))
 }
 
-fn parameter(parameter: &Parameter) -> Vec<String> {
+/// A row of numbers, and its size in words below.
+fn parameters(parameters: &[Parameter]) -> String {
+    let rows: Vec<_> = parameters.iter().map(row).collect();
+    let typical = parameters.iter().map(|parameter| match parameter.typical.as_str() {
+        "" => String::new(),
+        words => format!("    {words}\n"),
+    });
+    lines(&rows).iter().zip(typical).map(|(row, words)| format!("  {row}\n{words}")).collect()
+}
+
+fn row(parameter: &Parameter) -> Vec<String> {
     let [low, high] = parameter.bounds;
-    let null = match parameter.null.as_slice() {
-        [single] => single.to_string(),
-        list => format!("{list:?}"),
-    };
+    let null: Vec<_> = parameter.null.iter().map(f64::to_string).collect();
+    let null =
+        if let [single] = null.as_slice() { single } else { &format!("[{}]", null.join(", ")) };
     let unit = parameter.unit.to_string();
-    let range = format!("null {null}, {low} to {high}");
-    vec![parameter.name.clone(), unit, range, parameter.typical.clone()]
+    vec![parameter.name.clone(), unit, format!("null {null}, {low} to {high}")]
 }
 
 fn passed(effect: &Effect, file: &str) -> String {

@@ -3,6 +3,7 @@
 mod batch;
 mod compare;
 mod comparison;
+mod diagnose;
 mod doctor;
 mod effects;
 mod import;
@@ -35,6 +36,7 @@ enum Command {
     Reconstruct(reconstruct::Arguments),
     Batch(batch::Arguments),
     Compare(compare::Arguments),
+    Diagnose(diagnose::Arguments),
     Effects(effects::Arguments),
     Import(import::Arguments),
     Simulate(simulate::Arguments),
@@ -50,6 +52,7 @@ pub fn main() -> ExitCode {
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

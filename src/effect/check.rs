@@ -9,8 +9,8 @@ use super::mistake::Mistake;
 use super::names::{NAMES, Shape};
 use super::parse::{Expression, Kind};
 use super::program::Operation;
-use super::rules;
 use super::unit::Dimension;
+use super::{calls, rules};
 use crate::words::{counted, did_you_mean, quoted};
 
 /// An expression that is understood.
@@ -151,7 +151,7 @@ impl Scope<'_> {
             return Err(Mistake::new(span, problem, format!("give it {wanted}")));
         }
         let arguments = arguments.iter().map(|argument| self.check(argument));
-        rules::apply(name, rule, arguments.collect::<Result<_, _>>()?, span)
+        calls::apply(name, rule, arguments.collect::<Result<_, _>>()?, span)
     }
 }
 

@@ -23,11 +23,7 @@ impl Emitter {
         match &value.meaning {
             Meaning::Known(register) => *register,
             Meaning::Component(of, axis) => self.value(of) + axis,
-            Meaning::Constant(number) => {
-                let target = self.reserve(1);
-                self.emit(Operation::Constant, target, [0, 0], *number);
-                target
-            }
+            Meaning::Constant(number) => self.once(Operation::Constant, [0, 0], *number, 1),
             Meaning::Vector(items) => {
                 let from: Vec<u16> = items.iter().map(|item| self.value(item)).collect();
                 let target = self.reserve(3);
@@ -38,13 +34,27 @@ impl Emitter {
             }
             Meaning::Apply(operation, values) => {
                 let from: Vec<u16> = values.iter().map(|value| self.value(value)).collect();
-                let target = self.reserve(if value.shape == Shape::Vector { 3 } else { 1 });
-                let left = from[0];
-                let right = *from.get(1).unwrap_or(&left);
-                self.emit(*operation, target, [left, right], 0.0);
-                target
+                let right = *from.get(1).unwrap_or(&from[0]);
+                let length = if value.shape == Shape::Vector { 3 } else { 1 };
+                self.once(*operation, [from[0], right], 0.0, length)
             }
         }
+    }
+
+    /// Emits an instruction, unless the same was emitted before: no register is written twice, so
+    /// its result still stands.
+    fn once(&mut self, operation: Operation, operands: [u16; 2], value: f64, length: u16) -> u16 {
+        let is_same = |earlier: &&Instruction| {
+            earlier.operation == operation
+                && [earlier.left, earlier.right] == operands
+                && earlier.value.to_bits() == value.to_bits()
+        };
+        if let Some(earlier) = self.instructions.iter().find(is_same) {
+            return earlier.target;
+        }
+        let target = self.reserve(length);
+        self.emit(operation, target, operands, value);
+        target
     }
 
     fn reserve(&mut self, registers: u16) -> u16 {

@@ -8,6 +8,7 @@
 //! An [`Effect`] that was read is good: its units fit, it does nothing at its null values, and it
 //! has finite derivatives at rest.
 
+mod calls;
 mod catalogue;
 mod check;
 mod compile;
@@ -15,8 +16,10 @@ mod evaluate;
 pub(crate) mod file;
 mod functions;
 mod hook;
+mod law;
 mod mistake;
 mod names;
+mod parameters;
 mod parse;
 mod program;
 mod read;

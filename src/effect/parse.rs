@@ -14,7 +14,6 @@ use std::ops::Range;
 
 use super::mistake::Mistake;
 use super::token::{Kind as TokenKind, Token, tokens};
-use crate::words::quoted;
 
 /// Brackets and signs within each other; more would be generated text, and costs stack.
 const DEEPEST: usize = 64;
@@ -231,17 +230,4 @@ impl<'a> Parser<'a> {
 fn pair<'a>(binary: Binary, left: Expression<'a>, right: Expression<'a>) -> Expression<'a> {
     let span = left.span.start..right.span.end;
     Expression { kind: Kind::Binary(binary, Box::new([left, right])), span }
-}
-
-/// A name as it is allowed in files: it must be readable as one word everywhere.
-pub(super) fn is_name(text: &str) -> bool {
-    let mut chars = text.chars();
-    chars.next().is_some_and(|c| c.is_ascii_alphabetic())
-        && chars.all(|c| c.is_ascii_alphanumeric() || c == '_')
-        && text.len() <= 40
-}
-
-/// The message for a name that isn't one.
-pub(super) fn name_problem(text: &str) -> String {
-    format!("{} can't be a name", quoted(text))
 }

@@ -2,19 +2,14 @@
 
 use std::path::Path;
 
-use super::check::{KnownParameter, Scope as LawScope};
-use super::compile::compile;
-use super::file::{EffectFile, Null, ParameterFile};
-use super::functions::FUNCTIONS;
-use super::mistake::Mistake;
-use super::names::{INPUTS, NAMES, Shape};
-use super::parse::{Expression, Kind, is_name, name_problem, parse};
+use super::file::EffectFile;
+use super::law::{law, names_in};
+use super::parameters::{check_name, known_parameters, parameter};
+use super::parse::parse;
 use super::trial::try_out;
-use super::unit::Unit;
-use super::{Effect, Hook, Need, Parameter, Program, Scope};
+use super::{Effect, Hook, Need, Scope};
 use crate::files::{display_name, read_text_up_to};
 use crate::json::decode_toml;
-use crate::words::{limit, quoted};
 use crate::{Error, ErrorKind, Result};
 
 /// An effect is a page of text; more than this was never written by hand.
@@ -22,9 +17,6 @@ const LARGEST_FILE_BYTES: u64 = 64 << 10;
 
 /// More unknowns than any scene could determine.
 const MOST_PARAMETERS: usize = 32;
-
-/// The bounds of a parameter whose file states none.
-const WIDEST: [f64; 2] = [-1e6, 1e6];
 
 impl Effect {
     /// Reads and checks the effect file `path` (`-` is standard input).
@@ -57,10 +49,7 @@ impl Effect {
     }
 
     fn from_file(file: EffectFile) -> Result<Effect> {
-        if !is_name(&file.name) {
-            let mend = "use letters, digits and `_`, at most 40, and start with a letter";
-            return Err(Error::invalid("name", name_problem(&file.name)).mend(mend));
-        }
+        check_name(&file.name).map_err(|error| error.at("name"))?;
         let count = file.parameters.len();
         if count == 0 || count > MOST_PARAMETERS {
             let problem = format!("an effect has 1 to {MOST_PARAMETERS} parameters, not {count}");
@@ -86,7 +75,7 @@ impl Effect {
             let error = Error::invalid(place, "isn't used by any law");
             return Err(error.mend("use it, or take it out"));
         }
-        let needs = all_needs(file.needs, &laws, &used);
+        let needs = all_needs(file.needs, &sources, &used);
         Ok(Effect {
             name: file.name,
             title: file.title,
@@ -100,57 +89,6 @@ impl Effect {
     }
 }
 
-fn parameter((name, file): (String, ParameterFile)) -> Result<Parameter> {
-    let place = format!("parameters.{name}");
-    if !is_name(&name) {
-        let mend = "use letters, digits and `_`, at most 40, and start with a letter";
-        return Err(Error::invalid("parameters", name_problem(&name)).mend(mend));
-    }
-    let taken = NAMES.iter().map(|known| known.text).chain(FUNCTIONS.map(|known| known.0));
-    if taken.chain(["pi"]).any(|known| known == name) {
-        let problem = format!("{} means something else in laws already", quoted(&name));
-        return Err(Error::invalid(place, problem).mend("give the parameter another name"));
-    }
-    let unit = Unit::parse(&file.unit)
-        .map_err(|mistake| mistake.in_text(&file.unit, &format!("{place}.unit")))?;
-    let null = match file.null {
-        Null::Scalar(value) => vec![value],
-        Null::Vector(values) => values.to_vec(),
-    };
-    let bounds = file.bounds.unwrap_or(WIDEST);
-    let [low, high] = bounds;
-    if low >= high {
-        let problem = format!("{} isn't below {}", limit(low), limit(high));
-        return Err(
-            Error::invalid(format!("{place}.bounds"), problem).mend("the least comes first")
-        );
-    }
-    if let Some(outside) = null.iter().find(|value| !(low..=high).contains(value)) {
-        let (low, high) = (limit(low), limit(high));
-        let problem = format!("{} is outside the bounds, {low} to {high}", limit(*outside));
-        let mend = "without the effect the model is the base model: let the bounds hold the null";
-        return Err(Error::invalid(format!("{place}.null"), problem).mend(mend));
-    }
-    let scale = file.scale.unwrap_or_else(|| default_scale(&null, file.bounds));
-    if scale <= 0.0 {
-        let error =
-            Error::invalid(format!("{place}.scale"), format!("{} isn't above 0", limit(scale)));
-        return Err(error.mend("write a typical size"));
-    }
-    let (frame, typical, scan) = (file.frame, file.typical, file.scan);
-    Ok(Parameter { name, unit, null, bounds, scale, frame, typical, scan })
-}
-
-/// A hundredth of the way to the nearer bound that isn't at the null itself.
-fn default_scale(null: &[f64], bounds: Option<[f64; 2]>) -> f64 {
-    let Some(bounds) = bounds else {
-        return 1.0;
-    };
-    let ways = null.iter().flat_map(|value| bounds.map(|bound| (bound - value).abs()));
-    let nearest = ways.filter(|&way| way > 0.0).fold(f64::INFINITY, f64::min);
-    nearest / 100.0
-}
-
 /// What hooks need of each other and of the scope.
 fn check_hooks(sources: &[(Hook, String)], scope: Scope) -> Result<()> {
     let has = |hook| sources.iter().any(|(stated, _)| *stated == hook);
@@ -162,11 +100,10 @@ fn check_hooks(sources: &[(Hook, String)], scope: Scope) -> Result<()> {
         return Err(error.mend("state at least one, such as `acceleration = \"-k * v\"`"));
     }
     let at_contact = [Hook::Impulse, Hook::ImpulsePoint, Hook::AngularImpulse];
-    if scope == Scope::Contact {
-        if let Some((hook, _)) = sources.iter().find(|(hook, _)| !at_contact.contains(hook)) {
-            let mend = "a contact has `impulse` and `angular_impulse`; else write scope = \"body\"";
-            return refuse(*hook, "acts on a body, not on a contact", mend);
-        }
+    let elsewhere = sources.iter().find(|(hook, _)| !at_contact.contains(hook));
+    if let (Scope::Contact, Some((hook, _))) = (scope, elsewhere) {
+        let mend = "a contact has `impulse` and `angular_impulse`; else write scope = \"body\"";
+        return refuse(*hook, "acts on a body, not on a contact", mend);
     }
     let jumps = has(Hook::EventImpulse) || has(Hook::EventAngularImpulse);
     if has(Hook::ImpulsePoint) && !has(Hook::Impulse) {
@@ -181,88 +118,24 @@ fn check_hooks(sources: &[(Hook, String)], scope: Scope) -> Result<()> {
     Ok(())
 }
 
-fn known_parameters(parameters: &[Parameter]) -> Vec<KnownParameter<'_>> {
-    let mut register = INPUTS;
-    let mut known = Vec::new();
-    for parameter in parameters {
-        let is_vector = parameter.null.len() == 3;
-        known.push(KnownParameter {
-            name: &parameter.name,
-            register,
-            shape: if is_vector { Shape::Vector } else { Shape::Scalar },
-            dimension: parameter.unit.dimension(),
-        });
-        register += if is_vector { 3 } else { 1 };
-    }
-    known
-}
-
-/// The program of a law, if it is what its hook is to be.
-fn law(
-    tree: &Expression<'_>,
-    hook: Hook,
-    known: &[KnownParameter<'_>],
-) -> std::result::Result<Program, Mistake> {
-    let value = LawScope { hook, parameters: known }.check(tree)?;
-    value.fits(hook).map_err(|mistake| with_unit(mistake, tree, hook, known))?;
-    let taken: u16 = known.iter().map(|one| if one.shape == Shape::Vector { 3 } else { 1 }).sum();
-    Ok(compile(&value, INPUTS + taken))
-}
-
-/// If another unit of one parameter would mend the law, says so.
-fn with_unit(
-    mistake: Mistake,
-    tree: &Expression<'_>,
-    hook: Hook,
-    known: &[KnownParameter<'_>],
-) -> Mistake {
-    let found = LawScope { hook, parameters: known }.check(tree).ok().and_then(|v| v.dimension);
-    let Some(found) = found else {
-        return mistake;
-    };
-    for index in 0..known.len() {
-        let mut others = known.to_vec();
-        let unit = known[index].dimension.times(hook.dimension()).over(found);
-        others[index].dimension = unit;
-        let value = LawScope { hook, parameters: &others }.check(tree);
-        if value.is_ok_and(|value| value.fits(hook).is_ok()) {
-            let mend =
-                format!("if the law is right, the unit of `{}` is {unit}", known[index].name);
-            return Mistake { mend, ..mistake };
-        }
-    }
-    mistake
-}
-
-/// Adds the names that `tree` holds.
-fn names_in<'a>(tree: &Expression<'a>, names: &mut Vec<&'a str>) {
-    match &tree.kind {
-        Kind::Number(_) => {}
-        Kind::Name(name) => names.push(name),
-        Kind::Negative(of) | Kind::Component(of, _) => names_in(of, names),
-        Kind::Binary(_, parts) => parts.iter().for_each(|part| names_in(part, names)),
-        Kind::Call { arguments: items, .. } | Kind::Vector(items) => {
-            items.iter().for_each(|item| names_in(item, names));
-        }
-    }
-}
-
-/// The needs that are stated, and those that the names imply.
-fn all_needs(mut needs: Vec<Need>, laws: &[(Hook, Program)], used: &[&str]) -> Vec<Need> {
-    let flies = |hook: &Hook| {
-        matches!(hook, Hook::Acceleration | Hook::Torque | Hook::Position | Hook::Orientation)
-    };
-    let normal_of_plane = used.contains(&"normal") && laws.iter().any(|(hook, _)| flies(hook));
+/// The needs that are stated, and those that hooks and names imply.
+fn all_needs(stated: Vec<Need>, sources: &[(Hook, String)], used: &[&str]) -> Vec<Need> {
+    let uses = |names: &[&str]| names.iter().any(|name| used.contains(name));
+    let has = |hooks: &[Hook]| sources.iter().any(|(hook, _)| hooks.contains(hook));
+    // At the contact the normal is known of two bodies too.
+    let apart = [Hook::Acceleration, Hook::Torque, Hook::Position, Hook::Orientation];
+    let turns = uses(&["w", "L", "rotate", "unrotate"]) || has(&[Hook::Torque, Hook::Inertia]);
     let implied = [
-        (Need::Camera, used.contains(&"camera")),
-        (Need::Plane, used.contains(&"slip") || normal_of_plane),
+        (Need::Camera, uses(&["camera"])),
+        (Need::Plane, uses(&["slip"]) || uses(&["normal"]) && has(&apart)),
+        (Need::Orientation, turns),
     ];
-    needs.extend(implied.into_iter().filter(|one| one.1).map(|one| one.0));
-    let mut distinct = Vec::new();
-    for need in needs {
-        if !distinct.contains(&need) {
-            distinct.push(need);
+    let implied = implied.into_iter().filter(|(_, is_implied)| *is_implied).map(|(need, _)| need);
+    let mut needs = Vec::new();
+    for need in stated.into_iter().chain(implied) {
+        if !needs.contains(&need) {
+            needs.push(need);
         }
     }
-    distinct
+    needs
 }

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use serde::Serialize;
+
 use super::{Effect, Parameter, find};
 use crate::words::{did_you_mean, limit, quoted};
 use crate::{Error, ErrorKind, Result};
 
 /// An effect, perhaps on one body alone, perhaps with parameters that are known.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EffectRequest {
     /// What is asked for.
     pub effect: Effect,

@@ -1,10 +1,9 @@
-//! What the operations make of shapes and units.
+//! What the operators make of shapes and units.
 
 use std::ops::Range;
 
 use super::check::{Checked, Meaning, Value};
 use super::evaluate::of_scalars;
-use super::functions::Rule;
 use super::mistake::Mistake;
 use super::names::Shape;
 use super::parse::Binary;
@@ -73,7 +72,7 @@ pub(super) fn binary(binary: Binary, left: Value, right: Value, span: Range<usiz
 }
 
 /// Of a base and an exponent.
-fn power(values: Vec<Value>, span: Range<usize>) -> Checked {
+pub(super) fn power(values: Vec<Value>, span: Range<usize>) -> Checked {
     let (base, exponent) = (&values[0], &values[1]);
     for (side, mend) in [(base, "write dot(v, v), or norm(v)^2"), (exponent, "take a component")] {
         if side.shape != Shape::Scalar {
@@ -124,60 +123,8 @@ pub(super) fn vector(items: Vec<Value>, span: Range<usize>) -> Checked {
     Ok(Value { meaning: Meaning::Vector(items), shape: Shape::Vector, dimension, span })
 }
 
-pub(super) fn apply(name: &str, rule: Rule, arguments: Vec<Value>, span: Range<usize>) -> Checked {
-    for argument in &arguments {
-        match (rule.takes_vectors(), argument.shape) {
-            (true, Shape::Vector) | (false, Shape::Scalar) => {}
-            (_, Shape::Quaternion) => return Err(orientation_alone(argument.span.clone())),
-            (true, Shape::Scalar) => {
-                let problem = format!("`{name}` takes a vector, and this is a number");
-                let mend = "write abs(x) for a number's size, or give it a vector";
-                return Err(Mistake::new(argument.span.clone(), problem, mend));
-            }
-            (false, Shape::Vector) => {
-                let problem = format!("`{name}` takes a number, and this is a vector");
-                let mend = "write norm(v) for a vector's size, or take a component";
-                return Err(Mistake::new(argument.span.clone(), problem, mend));
-            }
-        }
-    }
-    let of = |index: usize| arguments[index].dimension.unwrap_or(Dimension::NONE);
-    let (scalar, vector, pure) = (Shape::Scalar, Shape::Vector, Some(Dimension::NONE));
-    let (operation, shape, dimension) = match rule {
-        Rule::Pure(_) if of(0) != Dimension::NONE => return Err(not_pure(&arguments[0])),
-        Rule::Pure(operation) => (operation, scalar, pure),
-        Rule::Keeps(operation) => (operation, scalar, arguments[0].dimension),
-        Rule::Drops(operation) => (operation, scalar, pure),
-        // A dimension's half may be no whole number of parts.
-        Rule::Root => match of(0).to_the(0.5) {
-            Some(root) => (Operation::Sqrt, scalar, Some(root)),
-            None => return Err(Mistake::new(span, "has an odd unit", "take the root of less")),
-        },
-        Rule::Alike(operation) => (operation, scalar, common(&arguments, &span)?),
-        Rule::Compares(operation) => {
-            common(&arguments, &span)?;
-            (operation, scalar, pure)
-        }
-        Rule::Dot => (Operation::Dot, scalar, Some(of(0).times(of(1)))),
-        Rule::Cross => (Operation::Cross, vector, Some(of(0).times(of(1)))),
-        Rule::Norm => (Operation::Norm, scalar, arguments[0].dimension),
-        Rule::Unit => (Operation::Unit, vector, pure),
-        Rule::Turns(operation) => (operation, vector, arguments[0].dimension),
-        Rule::Power => return power(arguments, span),
-        Rule::Clamp => {
-            let dimension = common(&arguments, &span)?;
-            let mut arguments = arguments;
-            let highest = arguments.pop();
-            let inner = applied(Operation::Max, scalar, dimension, arguments, span.clone());
-            let both = [Some(inner), highest].into_iter().flatten().collect();
-            return Ok(applied(Operation::Min, scalar, dimension, both, span));
-        }
-    };
-    Ok(applied(operation, shape, dimension, arguments, span))
-}
-
 /// The operation; where all it takes are numbers, its result.
-fn applied(
+pub(super) fn applied(
     operation: Operation,
     shape: Shape,
     dimension: Option<Dimension>,
@@ -201,7 +148,7 @@ fn constant(value: &Value) -> Option<f64> {
 }
 
 /// The unit that all share.
-fn common<'a>(
+pub(super) fn common<'a>(
     values: impl IntoIterator<Item = &'a Value>,
     span: &Range<usize>,
 ) -> Result<Option<Dimension>, Mistake> {
@@ -235,13 +182,13 @@ fn expect_scalar(value: &Value) -> Result<(), Mistake> {
     }
 }
 
-fn not_pure(value: &Value) -> Mistake {
+pub(super) fn not_pure(value: &Value) -> Mistake {
     let found = value.dimension.unwrap_or(Dimension::NONE);
     let problem = format!("a pure number must stand here, and this is in {found}");
     Mistake::new(value.span.clone(), problem, "divide it by a value in the same unit")
 }
 
-fn orientation_alone(span: Range<usize>) -> Mistake {
+pub(super) fn orientation_alone(span: Range<usize>) -> Mistake {
     let mend = "write rotate(v), body to world, or unrotate(v), world to body";
     Mistake::new(span, "the orientation `q` can't be reckoned with by itself", mend)
 }

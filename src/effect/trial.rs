@@ -117,9 +117,9 @@ fn evaluate(program: &Program, hook: Hook, state: &State, parameters: &[f64]) ->
 }
 
 fn not_finite(hook: Hook, problem: &str, state: &State) -> Error {
-    Error::invalid(format!("law.{hook}"), format!("{problem} {}", state.words)).mend(
-        "a quotient needs a divisor that is never 0; v / norm(v) is written unit(v), which is 0 at 0",
-    )
+    let mend = "write unit(v), which is 0 at 0, for v / norm(v); keep divisors off 0, and roots and \
+                logarithms above it: max(x, 0)";
+    Error::invalid(format!("law.{hook}"), format!("{problem} {}", state.words)).mend(mend)
 }
 
 /// Parameters within a scale of their nulls.

@@ -38,8 +38,7 @@ impl Dimension {
         Dimension { metre: metre * PART, second: second * PART, kilogram: kilogram * PART }
     }
 
-    /// The powers of metre, second and kilogram: by these numbers a quantity grows when the units
-    /// shrink.
+    /// The powers of metre, second and kilogram.
     pub fn powers(self) -> [f64; 3] {
         [self.metre, self.second, self.kilogram].map(|part| f64::from(part) / f64::from(PART))
     }
@@ -95,6 +94,9 @@ impl fmt::Display for Dimension {
 impl Unit {
     /// Reads a unit such as `1/m`, `m/s^2` or `kg*m^2/s`; also `rad`, `N`, `J` and `Hz`.
     pub(super) fn parse(text: &str) -> Result<Unit, Mistake> {
+        if text.trim().is_empty() {
+            return Err(Mistake::new(0..0, "is empty", "write `1` for a pure number"));
+        }
         let dimension = dimension(&parse(text)?)?;
         Ok(Unit { text: text.trim().to_owned(), dimension })
     }

@@ -28,7 +28,8 @@ fn explained(error: &toml::de::Error, text: &str) -> Error {
     let (problem, mend) = if said.starts_with("duplicate key") {
         (format!("the same key again, at {shown}"), "keep one of the two")
     } else if said.starts_with("number out of range") {
-        (format!("a number isn't finite, at {shown}"), "write a finite number in SI units")
+        let mend = "write a finite number, or leave the field out if it may be left out";
+        (format!("a number isn't finite, at {shown}"), mend)
     } else {
         let mend = "text stands between quotes, a law too; lists between [ and ]";
         (format!("isn't TOML: {said}, at {shown}"), mend)

@@ -9,7 +9,7 @@ mod options;
 mod paper;
 mod progress;
 mod read;
-mod refined;
+pub(crate) mod refined;
 mod result;
 mod scatter;
 

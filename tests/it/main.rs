@@ -10,6 +10,7 @@ mod collision;
 mod compare;
 mod docs;
 mod doubts;
+mod effects;
 mod examples;
 mod free_rotation;
 mod import;

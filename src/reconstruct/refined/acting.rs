@@ -35,6 +35,16 @@ impl Instance {
         }
     }
 
+    /// Whether it is of single poses: it may be there more than once, and chooses among them.
+    pub(crate) fn is_of_a_pose(&self) -> bool {
+        self.effect.parameters.iter().any(|p| p.scan == Some(Scan::ObservationTimes))
+    }
+
+    /// Whether it is of a single pose or a moment of its own: it may be there more than once.
+    pub(crate) fn is_of_a_moment(&self) -> bool {
+        self.is_of_a_pose() || self.effect.laws.iter().any(|(hook, _)| *hook == Hook::EventTime)
+    }
+
     /// The index of the bodies that it acts on.
     pub(crate) fn bodies(&self, scene: &RefinedScene) -> Vec<usize> {
         match self.body {

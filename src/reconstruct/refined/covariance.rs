@@ -12,8 +12,8 @@ const TOLERATED_SHARE: f64 = 1e-8;
 
 /// The covariance of the unknowns, with the directions that the data say nothing of.
 #[derive(Debug, Clone)]
-pub(super) struct Covariance {
-    pub(super) matrix: DMatrix<f64>,
+pub(crate) struct Covariance {
+    pub(crate) matrix: DMatrix<f64>,
     /// Unit vectors in the scaled unknowns, column by column.
     undetermined: DMatrix<f64>,
     scale: DVector<f64>,

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use super::acting::{Acting, Instance};
+use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
 use super::noise::{KnownNoise, LEAST_NOISE, positions, settle_noise, turns};
 use super::optimum::{Optimum, optima_from};
@@ -104,6 +105,41 @@ impl Fitted {
         };
         of(positions(solution), LEAST_NOISE.position)
             + of(turns(&self.refined, solution), LEAST_NOISE.orientation)
+    }
+
+    /// How many of the effect's free scalars the data depend on, beside all other unknowns.
+    pub(crate) fn directions(&self, acting: &Acting) -> usize {
+        /// Of a column's length; less is rounding.
+        const APART: f64 = 1e-6;
+        let best = self.best();
+        let Ok(tangent) = linearised(&self.refined, &best.solution.unknowns, best.gap) else {
+            return 0;
+        };
+        let own = self.columns(acting);
+        let others: Vec<usize> =
+            (0..tangent.jacobian.ncols()).filter(|column| !own.contains(column)).collect();
+        let mut basis = orthonormal(tangent.jacobian.select_columns(&others));
+        let mut directions = 0;
+        for column in own {
+            let column = tangent.jacobian.column(column).into_owned();
+            let apart = &column - &basis * basis.tr_mul(&column);
+            if apart.norm() > APART * column.norm() && column.norm() > 0.0 {
+                directions += 1;
+                let place = basis.ncols();
+                basis = basis.insert_column(place, 0.0);
+                basis.set_column(place, &apart.normalize());
+            }
+        }
+        directions
+    }
+
+    /// How many of the measured numbers the fit used up.
+    pub(crate) fn used(&self) -> f64 {
+        let solution = &self.best().solution;
+        [&solution.position_information, &solution.orientation_information]
+            .map(|channel| self.best().used(channel))
+            .iter()
+            .sum()
     }
 
     /// How many numbers were measured.

@@ -79,7 +79,7 @@ pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Res
 }
 
 /// An orthonormal basis of the columns' span; directions that are rounding are left out.
-fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
     /// Of a column's length.
     const ROUNDING: f64 = 1e-7;
     for mut column in columns.column_iter_mut() {

@@ -31,8 +31,12 @@ mod start;
 mod starts;
 mod uncertainty;
 
-use self::acting::instances;
-use self::fitted::Fitted;
+pub(crate) use self::acting::{Acting, Instance, instances, possible};
+pub(crate) use self::fitted::Fitted;
+pub(crate) use self::gain::{Linearised, linearised};
+pub(crate) use self::report::reconstruction as report;
+pub(crate) use self::starts::points;
+
 use super::{Intervals, Loss, Reconstruction, RefinedOptions};
 use crate::{Error, ErrorKind, Result, Scene};
 
@@ -42,14 +46,19 @@ const LARGEST_TILT_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Reconstructs the collision in `scene` by the refined solver.
 pub(super) fn reconstruct(scene: &Scene, options: &RefinedOptions) -> Result<Reconstruction> {
+    if options.loss == Loss::Robust && options.intervals == Intervals::Profile {
+        let problem = "profile intervals are of least squares, not of the robust loss";
+        return Err(Error::new(ErrorKind::Invalid, problem).mend("leave one of the two out"));
+    }
+    report(scene, &fit(scene, options)?, options.intervals)
+}
+
+/// Fits the base model to `scene`, and then effect after effect.
+pub(crate) fn fit(scene: &Scene, options: &RefinedOptions) -> Result<Fitted> {
     if !(LEAST_TILT_RAD..=LARGEST_TILT_RAD).contains(&options.tilt_std_rad) {
         let problem = format!("the tilt's deviation is {} rad", options.tilt_std_rad);
         return Err(Error::new(ErrorKind::Invalid, problem)
             .mend("give an angle from 1e-9 rad to a quarter turn"));
-    }
-    if options.loss == Loss::Robust && options.intervals == Intervals::Profile {
-        let problem = "profile intervals are of least squares, not of the robust loss";
-        return Err(Error::new(ErrorKind::Invalid, problem).mend("leave one of the two out"));
     }
     let mut fitted = Fitted::base(scene, options.tilt_std_rad, options.loss)?;
     for request in &options.effects {
@@ -57,5 +66,5 @@ pub(super) fn reconstruct(scene: &Scene, options: &RefinedOptions) -> Result<Rec
             fitted = fitted.with(scene, &instance)?;
         }
     }
-    report::reconstruction(scene, &fitted, options.intervals)
+    Ok(fitted)
 }

@@ -16,7 +16,7 @@ pub(super) const LEAST_NOISE: Noise = Noise { position: 1e-9, orientation: 1e-9 
 
 /// The noise, and how it is known.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct KnownNoise {
+pub(crate) struct KnownNoise {
     pub(super) value: Noise,
     /// Spare numbers of each channel that it is estimated from; `None` where it is stated.
     pub(super) position_dof: Option<f64>,

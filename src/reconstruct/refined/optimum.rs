@@ -17,10 +17,10 @@ const MOST_ITERATIONS: u32 = 50;
 
 /// An optimum in one segment.
 #[derive(Debug, Clone)]
-pub(super) struct Optimum {
-    pub(super) gap: Gap,
-    pub(super) solution: RefinedSolution,
-    pub(super) covariance: Covariance,
+pub(crate) struct Optimum {
+    pub(crate) gap: Gap,
+    pub(crate) solution: RefinedSolution,
+    pub(crate) covariance: Covariance,
 }
 
 /// Minimises from where `unknowns` are, with nothing held.

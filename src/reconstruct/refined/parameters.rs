@@ -60,14 +60,17 @@ fn estimate(
         let margin = 1e-9 * (rule.high - rule.low).min(parameter.scale);
         value - rule.low <= margin || rule.high - value <= margin
     };
-    let stds: Option<Vec<f64>> =
-        (0..rules.len()).map(|index| deviations.of_unknown(column + index)).collect();
-    let (std, reason) = match stds {
-        _ if is_given => (None, Some(GIVEN)),
-        _ if rules[0].held => (None, Some(SCANNED)),
-        _ if rules.iter().zip(values).any(at_bound) => (None, Some(AT_BOUND)),
-        None => (None, Some(NO_DATA)),
-        Some(stds) => (Some(Number::from(stds)), None),
+    let stds = || -> Option<Vec<f64>> {
+        (0..rules.len()).map(|index| deviations.of_unknown(column + index)).collect()
+    };
+    let (std, reason) = match () {
+        () if is_given => (None, Some(GIVEN)),
+        () if rules[0].held => (None, Some(SCANNED)),
+        () if rules.iter().zip(values).any(at_bound) => (None, Some(AT_BOUND)),
+        () => match stds() {
+            None => (None, Some(NO_DATA)),
+            Some(stds) => (Some(Number::from(stds)), None),
+        },
     };
     ParameterEstimate {
         value: Some(Number::from(values.to_vec())),

@@ -4,7 +4,6 @@ use super::alternatives::alternatives;
 use super::fitted::Fitted;
 use super::layout::Layout;
 use super::noise::{KnownNoise, is_known, positions, turns};
-use super::optimum::Optimum;
 use super::parameters::effects;
 use super::profile::{Held, Profile};
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
@@ -29,7 +28,7 @@ const NO_INTERVAL: &str = "no end of the interval was found: the likelihood fall
 const NO_NOISE: &str = "too few poses to tell the noise, and the scene states none";
 
 /// The reconstruction that `fitted` stands for.
-pub(super) fn reconstruction(
+pub(crate) fn reconstruction(
     scene: &Scene,
     fitted: &Fitted,
     intervals: Intervals,
@@ -231,7 +230,7 @@ fn fit(scene: &Scene, fitted: &Fitted) -> Fit {
     let stated = scene.noise().is_some();
     let chi2 = stated
         .then(|| position_m2 / noise.position.powi(2) + turn_rad2 / noise.orientation.powi(2));
-    let dof = (positions + turns - used(best)).round() as i64;
+    let dof = (positions + turns - fitted.used()).round() as i64;
     let unmeasured = (turns == 0.0).then_some(NO_ORIENTATION);
     let untested = match (stated, dof) {
         (false, _) => Some("the scene states no noise"),
@@ -272,13 +271,4 @@ fn judged_fit(fit: &Fit, outliers: &[Outlier], fitted: &Fitted) -> Fit {
         reduced_chi2: fit.chi2.filter(|_| dof > 0).map(|chi2| (chi2 - wrong) / dof as f64),
         ..fit.clone()
     }
-}
-
-/// How many of the measured numbers the fit used up: the trace of the hat matrix.
-fn used(optimum: &Optimum) -> f64 {
-    let solution = &optimum.solution;
-    [&solution.position_information, &solution.orientation_information]
-        .map(|channel| optimum.used(channel))
-        .iter()
-        .sum()
 }

@@ -1,16 +1,18 @@
 //! Where a model with one effect more starts: at the optimum without it, and at what a scan of
 //! those parameters finds that the null hides.
 
+use nalgebra::Vector3;
+
 use super::acting::{Acting, Instance};
 use super::fitted::Fitted;
 use super::gain::{gains, linearised};
-use super::model::refined_scene;
+use super::model::{has_plane, refined_scene};
 use super::parabolas::Parabolas;
 use super::solve::solve;
 use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
-use crate::effect::Scan;
+use crate::effect::{Hook, Scan};
 use crate::reconstruct::Loss;
-use crate::scene::Gap;
+use crate::scene::{Gap, StaticPlane};
 use crate::{Result, Scene};
 
 /// Optima of the nested model that are tried.
@@ -41,8 +43,11 @@ pub(super) fn starts(
         .filter(|optimum| optimum.solution.cost <= least + HOPELESS)
         .map(|optimum| (extended(&optimum.solution.unknowns, &null), optimum.gap))
         .collect();
+    if let Some(plane) = scene.plane() {
+        starts.iter_mut().for_each(|(unknowns, _)| touch(unknowns, plane));
+    }
     match acting.instance.scan() {
-        None => starts.extend(beside_a_flat_null(refined, acting, &starts[0])?),
+        None => starts.extend(beside_the_null(refined, acting, &starts[0])?),
         Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)?),
         Some((_, place)) => {
             let points = points(scene, &acting.instance);
@@ -96,6 +101,14 @@ pub(crate) fn points(scene: &Scene, instance: &Instance) -> Vec<f64> {
     }
 }
 
+/// Puts the contact point on the plane: along the base model's impulse it makes no difference where
+/// it is, but to friction it does.
+fn touch(unknowns: &mut RefinedUnknowns, plane: &StaticPlane) {
+    let normal = plane.normal_in_world.into_inner();
+    let point = Vector3::from(unknowns.contact_point);
+    unknowns.contact_point = (point + (plane.height_m - normal.dot(&point)) * normal).into();
+}
+
 fn frame_s(scene: &Scene, times: &[f64]) -> f64 {
     let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     scene.fps().map_or(shortest, |fps| 1.0 / fps)
@@ -108,19 +121,48 @@ fn extended(unknowns: &RefinedUnknowns, null: &[f64]) -> RefinedUnknowns {
 }
 
 /// Where nothing depends on a parameter at the null, a start with all of them a typical size away.
-fn beside_a_flat_null(
+/// A further impulse at the contact may be hidden in a wrong contact point: starts with the impulse
+/// a typical size away, and with the contact point where the normal through the centre leads.
+fn beside_the_null(
     refined: &RefinedScene,
     acting: &Acting,
     (unknowns, gap): &Start,
 ) -> Result<Vec<Start>> {
-    let flat = linearised(refined, unknowns, *gap)?;
-    let free = refined.parameters[acting.first..].iter().filter(|rule| !rule.held).count();
-    let columns = flat.jacobian.columns(flat.jacobian.ncols() - free, free);
-    if columns.column_iter().all(|column| column.norm() > 0.0) {
+    let strikes = acting.instance.effect.laws.iter().any(|(hook, _)| *hook == Hook::ImpulsePoint);
+    if !strikes && !is_flat(refined, acting, unknowns, *gap)? {
         return Ok(Vec::new());
     }
-    let scales =
-        acting.instance.effect.parameters.iter().flat_map(|p| p.null.iter().map(|_| p.scale));
+    let away = away(refined, acting, unknowns);
+    let mut starts = vec![(away.clone(), *gap)];
+    if strikes && has_plane(refined) {
+        let mut central = away;
+        let normal = Vector3::from(refined.plane_normal);
+        let aside =
+            Vector3::from(central.contact_point) - Vector3::from(central.bodies[0].position);
+        let foot = Vector3::from(central.bodies[0].position) + normal * normal.dot(&aside);
+        central.contact_point = foot.into();
+        starts.push((central, *gap));
+    }
+    Ok(starts)
+}
+
+/// Whether nothing depends on one of the free parameters.
+fn is_flat(
+    refined: &RefinedScene,
+    acting: &Acting,
+    unknowns: &RefinedUnknowns,
+    gap: Gap,
+) -> Result<bool> {
+    let tangent = linearised(refined, unknowns, gap)?;
+    let free = refined.parameters[acting.first..].iter().filter(|rule| !rule.held).count();
+    let columns = tangent.jacobian.columns(tangent.jacobian.ncols() - free, free);
+    Ok(columns.column_iter().any(|column| column.norm() == 0.0))
+}
+
+/// With the free parameters a typical size from where they are.
+fn away(refined: &RefinedScene, acting: &Acting, unknowns: &RefinedUnknowns) -> RefinedUnknowns {
+    let parameters = acting.instance.effect.parameters.iter();
+    let scales = parameters.flat_map(|p| p.null.iter().map(|_| p.scale));
     let mut away = unknowns.clone();
     for (index, scale) in scales.enumerate() {
         let rule = &refined.parameters[acting.first + index];
@@ -130,7 +172,7 @@ fn beside_a_flat_null(
             *value = value.clamp(rule.low, rule.high);
         }
     }
-    Ok(vec![(away, *gap)])
+    away
 }
 
 /// The base model solved anew with a body's stamps moved: the delay may be more than a segment.

@@ -1,0 +1,64 @@
+//! What to film, measure or type next.
+
+use super::diagnosis::{Diagnosis, Verdict};
+use crate::Scene;
+use crate::effect::{Effect, catalogue};
+use crate::reconstruct::refined::Fitted;
+
+/// The advice that goes with a diagnosis.
+pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> Vec<String> {
+    let mut advice = Vec::new();
+    let known: String =
+        fitted.acting.iter().map(|acting| format!(" --with {}", acting.instance.label(scene))).collect();
+    match (diagnosis.verdict, diagnosis.candidates.first()) {
+        (Verdict::Missing, Some(best)) => {
+            let alike: Vec<&str> = best
+                .indistinguishable_from
+                .iter()
+                .map(|label| label.split('@').next().unwrap_or(label))
+                .collect();
+            if let Some(effect) = find(&best.effect).filter(|_| !alike.is_empty()) {
+                advice.push(effect.help.tell_apart.clone());
+            }
+            for other in alike {
+                let tell = find(other).map(|effect| effect.help.tell_apart.clone());
+                advice.extend(tell.filter(|tell| !advice.contains(tell)));
+            }
+            advice.push(format!(
+                "add it: smash reconstruct SCENE{known} --with {} -o RESULT",
+                best.label()
+            ));
+            advice.push(format!("look for more: smash improve SCENE{known}"));
+        }
+        (Verdict::UnknownEffect, _) => {
+            advice.push(
+                "look where the model fails: smash reconstruct SCENE -o RESULT, then smash compare \
+                 SCENE RESULT --svg FOLDER"
+                    .to_string(),
+            );
+            advice.push(
+                "write the law that you suspect into a file (smash effects show quadratic_drag is \
+                 one to start from) and try it: smash diagnose SCENE --try ./law.toml"
+                    .to_string(),
+            );
+        }
+        _ => {
+            if diagnosis.reduced_chi2.is_none() {
+                advice.push(
+                    "state the noise of the annotations in the scene (`noise`) if you know it: \
+                     weaker effects show then"
+                        .to_string(),
+                );
+            }
+            advice.push(
+                "weak effects show in several throws together: smash diagnose SCENE SCENE …".to_string(),
+            );
+        }
+    }
+    advice.retain(|line| !line.is_empty());
+    advice
+}
+
+fn find(name: &str) -> Option<&'static Effect> {
+    catalogue().iter().find(|effect| effect.name == name)
+}

@@ -1,0 +1,115 @@
+//! The diagnosis as it stands in a file, `smash.diagnosis/1`.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::compare::ChannelTest;
+use crate::reconstruct::{ActiveEffect, ParameterEstimate};
+
+/// The value of a diagnosis file's field `schema`.
+pub const DIAGNOSIS_SCHEMA: &str = "smash.diagnosis/1";
+
+/// Which effect the model of a scene lacks, and why one thinks so.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "smash.diagnosis/1")]
+pub struct Diagnosis {
+    /// Always `smash.diagnosis/1`.
+    #[schemars(extend("const" = DIAGNOSIS_SCHEMA))]
+    pub schema: String,
+    /// The scene's name.
+    pub scene: String,
+    /// The answer.
+    pub verdict: Verdict,
+    /// The effects that the model has already.
+    pub model: Vec<ActiveEffect>,
+    /// How the residuals of that model look, by body, side of the collision and axis.
+    pub channels: Vec<ChannelTest>,
+    /// χ² over its degrees of freedom without any candidate; null where the scene states no noise.
+    pub reduced_chi2: Option<f64>,
+    /// The candidates, the best first: all that stand out, and the best of the others.
+    pub candidates: Vec<CandidateReport>,
+    /// How probable it is that nothing is missing, beside the candidates' probabilities.
+    pub probability_of_nothing: f64,
+    /// The answer in plain words.
+    pub explanation: String,
+    /// What to film or measure to tell candidates apart, and the command to type next.
+    pub advice: Vec<String>,
+}
+
+/// What a diagnosis finds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The model explains the poses to their noise, as far as these poses can tell.
+    NothingMissing,
+    /// The first of the candidates is missing, or one of those that can't be told apart from it.
+    Missing,
+    /// Something is missing that no candidate explains.
+    UnknownEffect,
+}
+
+/// An effect that might be missing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CandidateReport {
+    /// Its name.
+    pub effect: String,
+    /// The body that it acts on; null for all.
+    pub body: Option<String>,
+    /// By how much χ² falls with it; as improbable, where the noise is estimated.
+    pub delta_chi2: f64,
+    /// How many independent numbers it adds.
+    pub parameters_added: usize,
+    /// How often noise alone would seem such an effect, any of all candidates.
+    pub p_value: f64,
+    /// Among all candidates and none, each alone, by Schwarz's criterion.
+    pub probability: f64,
+    /// Whether it is significant, more probable than none, and predicts better.
+    pub stands_out: bool,
+    /// Root mean square in m of positions predicted from the other blocks of poses, without it.
+    pub heldout_rmse_before: Option<f64>,
+    /// The same with it.
+    pub heldout_rmse_after: Option<f64>,
+    /// χ² over its degrees of freedom with it; null where the scene states no noise.
+    pub reduced_chi2: Option<f64>,
+    /// Its parameters by name.
+    pub parameters: BTreeMap<String, ParameterEstimate>,
+    /// `NAME@BODY` of those that these poses can't tell from it.
+    pub indistinguishable_from: Vec<String>,
+    /// What the collision's numbers were without it and are with it.
+    pub shifts: Vec<Shift>,
+}
+
+/// A reported number that moves when an effect is added.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Shift {
+    /// `mass_ratio` or `restitution`.
+    pub quantity: String,
+    /// Without the effect.
+    pub before: f64,
+    /// With it.
+    pub after: f64,
+    /// Over the deviation stated without it; null where none is.
+    pub in_sigma: Option<f64>,
+}
+
+impl CandidateReport {
+    /// `NAME@BODY`, or `NAME` where it acts on all: what `--with` takes.
+    pub fn label(&self) -> String {
+        match &self.body {
+            Some(body) => format!("{}@{body}", self.effect),
+            None => self.effect.clone(),
+        }
+    }
+}
+
+impl Diagnosis {
+    /// The file's text: JSON, with a final newline.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self)
+            .expect("plain numbers and strings always have a JSON form");
+        text.push('\n');
+        text
+    }
+}

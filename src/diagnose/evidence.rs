@@ -1,0 +1,80 @@
+//! How strongly the data speak for an effect, counting its parameters and the candidates tried.
+
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+use crate::reconstruct::refined::Fitted;
+
+/// What speaks for a larger model against one that it holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Evidence {
+    /// By how much −2 ln L falls; χ² where the noise is stated.
+    pub(crate) delta: f64,
+    /// As improbable under noise alone, were the noise known.
+    pub(crate) delta_chi2: f64,
+    /// Directions that the data depend on, with a scanned one.
+    pub(crate) parameters: usize,
+    /// How often noise alone would do as much, in any of the candidates and at any point of a scan.
+    pub(crate) p_value: f64,
+}
+
+/// The evidence for `with`; `None` where the data don't depend on what it adds. `scanned`: places
+/// that a scan chose from; `tried`: candidates in all.
+pub(crate) fn evidence(
+    without: &Fitted,
+    with: &Fitted,
+    scanned: usize,
+    tried: usize,
+) -> Option<Evidence> {
+    let acting = with.acting.last()?;
+    let parameters = with.directions(acting);
+    if parameters == 0 {
+        return None;
+    }
+    let delta = (without.deviance() - with.deviance()).max(0.0);
+    let count = parameters as f64;
+    let chi = ChiSquared::new(count).ok()?;
+    let single = match with.has_stated_noise() {
+        true => chi.sf(delta),
+        false => fisher(with, delta, count)?,
+    };
+    // Beyond what doubles can tell apart from none, χ² itself goes on telling.
+    let delta_chi2 = match with.has_stated_noise() || single < 1e-280 {
+        true => delta,
+        false => chi.inverse_cdf(1.0 - single.max(1e-16)).max(tail(single, count)),
+    };
+    let chances = (scanned * tried) as f64;
+    let p_value = (chances * single).min(1.0);
+    Some(Evidence { delta, delta_chi2, parameters, p_value })
+}
+
+/// Fisher's F-test of nested models, with the likelihood ratio of all channels as that of one: how
+/// often noise alone lets −2 ln L fall by `delta`.
+fn fisher(with: &Fitted, delta: f64, parameters: f64) -> Option<f64> {
+    let numbers = with.numbers();
+    let spare = numbers - with.used();
+    if spare < 1.0 {
+        return None;
+    }
+    let f = (delta / numbers).exp_m1() * spare / parameters;
+    Some(FisherSnedecor::new(parameters, spare).ok()?.sf(f))
+}
+
+/// The χ² whose tail is `p`, where that is too small for an inverse by doubles: by halving.
+fn tail(p: f64, degrees: f64) -> f64 {
+    let Ok(chi) = ChiSquared::new(degrees) else { return 0.0 };
+    let (mut low, mut high) = (0.0, 3000.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if chi.sf(middle) > p { low = middle } else { high = middle }
+    }
+    low
+}
+
+impl Evidence {
+    /// Schwarz's criterion against the model without: −Δχ² + k ln n; where a pose was chosen from
+    /// `poses` that choice counts too.
+    pub(crate) fn bic(&self, numbers: f64, poses: Option<usize>) -> f64 {
+        let chosen = poses.map_or(0.0, |poses| 2.0 * (poses as f64).ln());
+        -self.delta_chi2 + self.parameters as f64 * numbers.ln() + chosen
+    }
+}

@@ -1,0 +1,76 @@
+//! Which physics the model lacks: all effects of the catalogue against what a fit leaves over.
+//!
+//! ```text
+//! scene ─► fit ─► every candidate ─► evidence ─────────► ranking ──────► verdict ─► words, advice
+//!                 (refitted warm)    p-value, BIC,       probabilities,   missing,
+//!                                    held-out error      look-alikes      nothing, unknown
+//! ```
+
+mod advice;
+mod candidates;
+mod diagnosis;
+mod evidence;
+mod goodness;
+mod held_out;
+mod ranking;
+mod verdict;
+mod words;
+
+pub use diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
+
+pub(crate) use candidates::{Candidate, all_candidates};
+pub(crate) use goodness::Goodness;
+pub(crate) use held_out::held_out_rmse_m;
+
+use rayon::prelude::*;
+
+use crate::effect::EffectRequest;
+use crate::reconstruct::refined::{self, Fitted, Instance};
+use crate::reconstruct::{Intervals, RefinedOptions};
+use crate::{Result, Scene};
+
+/// How often noise alone may seem an effect, whichever of all candidates.
+pub(crate) const FALSE_ALARM: f64 = 0.01;
+
+/// Finds which effect is missing from the model of `scene`: that of `options`, with the effects in
+/// it. `further`: candidates beyond the catalogue.
+///
+/// # Errors
+/// The scene can't be reconstructed, or an effect doesn't fit it.
+///
+/// # Example
+/// ```no_run
+/// let scene = smash::Scene::read("scenes/boxes.json")?;
+/// let diagnosis = smash::diagnose(&scene, &smash::reconstruct::RefinedOptions::default(), &[])?;
+/// println!("{}", diagnosis.explanation);
+/// # Ok::<(), smash::Error>(())
+/// ```
+pub fn diagnose(
+    scene: &Scene,
+    options: &RefinedOptions,
+    further: &[EffectRequest],
+) -> Result<Diagnosis> {
+    let fitted = refined::fit(scene, options)?;
+    let instances = all_candidates(scene, &fitted, further)?;
+    let candidates = tried(scene, &fitted, &instances);
+    verdict::diagnosis(scene, &fitted, instances, candidates)
+}
+
+/// All candidates that can be fitted, the best explanation first.
+pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Vec<Candidate> {
+    let tangent = held_out::Tangent::of(fitted);
+    let mut candidates: Vec<Candidate> = instances
+        .par_iter()
+        .filter_map(|instance| {
+            let with = fitted.with(scene, instance).ok()?;
+            candidates::candidate(scene, fitted, with, instances.len(), tangent.as_ref())
+        })
+        .collect();
+    candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
+    candidates
+}
+
+/// The reconstruction of a fitted model, with covariance intervals.
+pub(crate) fn reported(scene: &Scene, fitted: &Fitted) -> Result<crate::Reconstruction> {
+    refined::report(scene, fitted, Intervals::Covariance)
+}
