@@ -396,6 +396,30 @@ fn the_command_tells_in_words_and_in_json() {
     assert!(alone.lines().count() < 50, "{alone}");
 }
 
+/// A picture for each result and body, in a folder that is made; results of one name are told apart.
+#[test]
+fn the_command_draws() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("other")).unwrap();
+    fs::copy(folder.path().join("paper.json"), folder.path().join("other/refined.json")).unwrap();
+    let arguments = ["scene.json", "refined.json", "other/refined.json", "--svg", "plots"];
+    success(run(folder.path(), &arguments));
+    let mut files: Vec<String> = fs::read_dir(folder.path().join("plots"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    files.sort();
+    let expected = ["refined-a-2.svg", "refined-a.svg", "refined-b-2.svg", "refined-b.svg"];
+    assert_eq!(files, expected);
+    let svg = |name| fs::read_to_string(folder.path().join("plots").join(name)).unwrap();
+    assert!(svg("refined-a.svg").contains("refined.json: a, poses minus model"));
+    assert_ne!(svg("refined-a.svg"), svg("refined-a-2.svg"));
+    let output = run(folder.path(), &["scene.json", "refined.json", "--svg", "scene.json"]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(message.contains("scene.json") && message.contains("folder"), "{message}");
+}
+
 #[test]
 fn the_command_names_the_file_at_fault() {
     let folder = folder();
