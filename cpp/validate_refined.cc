@@ -78,7 +78,8 @@ void CheckUnknowns(const RefinedScene& scene, const RefinedUnknowns& unknowns) {
   }
   if (!AllFinite(unknowns.tilt) || !AllFinite(unknowns.impulse) ||
       !AllFinite(unknowns.contact_point) ||
-      !(std::abs(unknowns.log_mass_ratio) <= kLargestLogMassRatio + 0.1)) {
+      // Derivatives step beyond the bound.
+      !(std::abs(unknowns.log_mass_ratio) <= kLargestLogMassRatio + 1)) {
     Refuse("a start that isn't finite");
   }
   const bool has_plane = scene.plane_normal != std::array<double, 3>{};

@@ -8,6 +8,7 @@ use smash::compare::{
     Channel, ChannelResidual, Difference, Entry, Quantity, ResultResiduals, Segment,
 };
 
+use super::ledger;
 use super::table::{aligned, decimals, degrees, lines, millimetres};
 
 /// A part by which two numbers must differ for people to wonder.
@@ -35,7 +36,7 @@ fn write_all(out: &mut String, comparison: &Comparison) -> std::fmt::Result {
             names[0]
         )?;
     }
-    writeln!(out, "Model minus poses, root mean square a coordinate, and the largest miss{}\n", {
+    writeln!(out, "Poses minus model, root mean square a coordinate, and the largest miss{}\n", {
         noise(comparison)
     })?;
     write!(out, "{}", aligned(&residuals(comparison, &names)))?;
@@ -44,7 +45,12 @@ fn write_all(out: &mut String, comparison: &Comparison) -> std::fmt::Result {
             writeln!(out, "\n{name}: {note}")?;
         }
     }
-    writeln!(out, "\n{}", failures(comparison, &names))
+    write!(out, "\n{}", failures(comparison, &names))?;
+    write!(out, "{}", outliers(comparison, &names))?;
+    if let [result] = comparison.results.as_slice() {
+        write!(out, "{}", ledger::in_words(&result.ledger))?;
+    }
+    Ok(())
 }
 
 /// What to know of a result's residuals.
@@ -185,35 +191,49 @@ fn miss(one: &ChannelResidual) -> String {
     format!("{size:>9} at {} s", decimals(one.largest.time, 3))
 }
 
-/// The channels that are off by more than noise, worst first.
+/// Where residuals aren't noise, the clearest first.
 fn failures(comparison: &Comparison, names: &[String]) -> String {
-    if comparison.noise.is_none() {
-        return "Where it fails can't be said: neither the scene nor a result states the noise. Add \
-                `noise` to the\nscene, or compare with a refined result.\n"
+    if comparison.results.iter().all(|result| result.structure.is_empty()) {
+        return "Where it fails can't be said: nothing tells the noise. Add `noise` to the scene, or \
+                compare with a\nrefined result.\n"
             .into();
     }
-    let mut worst: Vec<(&String, &ChannelResidual)> = names
-        .iter()
-        .zip(&comparison.results)
-        .flat_map(|(name, result)| result.channels.iter().map(move |one| (name, one)))
-        .filter(|(_, one)| one.stands_out == Some(true))
-        .collect();
-    if worst.is_empty() {
-        return "No channel is off by more than noise can explain.\n".into();
+    let results = || names.iter().zip(&comparison.results);
+    if results().all(|(_, result)| result.findings.is_empty()) {
+        return "Nothing looks structured: what is left is like noise.\n".into();
     }
-    worst.sort_by(|(_, a), (_, b)| {
-        b.rmse_in_sigma.unwrap_or(0.0).total_cmp(&a.rmse_in_sigma.unwrap_or(0.0))
-    });
+    let mut text = String::from("Where it fails, the clearest first\n");
+    for (name, result) in results() {
+        for finding in &result.findings {
+            let whose = if names.len() > 1 { format!("{name}: ") } else { String::new() };
+            text.push_str(&format!("  {whose}{finding}\n"));
+        }
+        if result.findings.is_empty() && names.len() > 1 {
+            text.push_str(&format!("  {name}: nothing looks structured\n"));
+        }
+    }
+    text
+}
+
+/// Single poses that are wrong, the worst first.
+fn outliers(comparison: &Comparison, names: &[String]) -> String {
+    /// More are no single ones: something else is wrong.
+    const MOST: usize = 5;
     let mut rows = Vec::new();
-    for (name, one) in worst {
-        rows.push(vec![
-            name.clone(),
-            format!("{} {}, {}", one.body, side(one.segment), kind(one.channel)),
-            one.rmse_in_sigma.map_or(String::new(), sigmas),
-            format!("most {}", miss(one).trim_start()),
-        ]);
+    for (name, result) in names.iter().zip(&comparison.results) {
+        for one in result.outliers.iter().take(MOST) {
+            let time = format!("at {} s", decimals(one.time, 3));
+            let far = sigmas(one.deviations);
+            rows.push(vec![name.clone(), one.body.clone(), one.channel.clone(), time, far]);
+        }
+        if let Some(more) = result.outliers.len().checked_sub(MOST).filter(|more| *more > 0) {
+            rows.push(vec![name.clone(), format!("and {more} more")]);
+        }
     }
-    format!("Where it fails: off by more than noise can explain\n{}", aligned(&rows))
+    match rows.is_empty() {
+        true => String::new(),
+        false => format!("\nPoses too far off to be noise\n{}", aligned(&rows)),
+    }
 }
 
 /// The noise, as the title of a table goes on.

@@ -8,6 +8,7 @@ mod doctor;
 mod effects;
 mod import;
 mod improve;
+mod ledger;
 mod method;
 mod progress;
 mod reconstruct;

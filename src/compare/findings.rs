@@ -3,6 +3,9 @@
 use super::randomness::Pattern;
 use super::{Axis, Channel, ChannelTest, Segment};
 
+/// Among p-values below, the size tells which is the clearest.
+const BEYOND_DOUBT: f64 = 1e-12;
+
 /// One sentence for each body, side of the collision, and kind of pose (position or orientation) in
 /// which `channels` fail: of the clearest axis, the clearest first. Empty where none fails.
 ///
@@ -10,8 +13,9 @@ use super::{Axis, Channel, ChannelTest, Segment};
 pub fn findings(channels: &[ChannelTest]) -> Vec<String> {
     let mut failing: Vec<&ChannelTest> = channels.iter().filter(|one| one.fails).collect();
     failing.sort_by(|a, b| {
-        let size = |one: &ChannelTest| one.largest.in_sigma.abs();
-        a.p_value.total_cmp(&b.p_value).then(size(b).total_cmp(&size(a)))
+        let doubt = |one: &ChannelTest| one.p_value.max(BEYOND_DOUBT);
+        let size = |one: &ChannelTest| one.rmse_in_sigma;
+        doubt(a).total_cmp(&doubt(b)).then(size(b).total_cmp(&size(a)))
     });
     let mut told = Vec::new();
     let mut sentences = Vec::new();

@@ -38,8 +38,7 @@ pub struct LedgerLine {
     pub after: LedgerEntry,
     /// After minus before; its deviation knows how the two hang together.
     pub change: LedgerEntry,
-    /// The number of `change` that is farthest from zero, in its deviations; null without them, and
-    /// where the method conserves it exactly.
+    /// The number of `change` that is farthest from zero, in its deviations; null without them.
     pub change_in_sigma: Option<f64>,
 }
 
@@ -48,7 +47,8 @@ pub struct LedgerLine {
 pub struct LedgerEntry {
     /// Null where the result doesn't tell a spin or the mass ratio.
     pub value: Option<Vec<f64>>,
-    /// One standard deviation of each number; null where the result doesn't tell it.
+    /// One standard deviation of each number; null where the result doesn't tell it, and of a change
+    /// that the method excludes.
     pub std: Vec<Option<f64>>,
 }
 
@@ -90,12 +90,13 @@ pub(super) fn ledger(scene: &Scene, result: &Reconstruction) -> Ledger {
                     .collect();
                 LedgerEntry { value, std: stds[start..start + count].to_vec() }
             };
-            let (before, after, change) = (entry(0), entry(1), entry(2));
+            let (before, after) = (entry(0), entry(1));
+            let change = without_rounding(entry(2), &before, &after);
             lines.push(LedgerLine {
                 body: body.clone(),
                 quantity: quantity.into(),
                 unit: unit.into(),
-                change_in_sigma: change_in_sigma(&before, &after, &change),
+                change_in_sigma: in_sigma(&change),
                 before,
                 after,
                 change,
@@ -113,16 +114,23 @@ fn about(result: &Reconstruction) -> Vector3<f64> {
     })
 }
 
-/// How large the largest number of the change is, where that means anything.
-fn change_in_sigma(before: &LedgerEntry, after: &LedgerEntry, change: &LedgerEntry) -> Option<f64> {
+/// A deviation that is rounding is none.
+fn without_rounding(
+    mut change: LedgerEntry,
+    before: &LedgerEntry,
+    after: &LedgerEntry,
+) -> LedgerEntry {
     let numbers = before.value.iter().chain(&after.value).flatten();
     let size = numbers.fold(0.0, |most: f64, number| most.max(number.abs()));
-    let value = change.value.as_ref()?;
-    let deviations = value.iter().zip(&change.std).filter_map(|(value, std)| {
-        let std = (*std)?;
-        (std > ROUNDING * size).then(|| value.abs() / std)
-    });
-    deviations.max_by(f64::total_cmp)
+    for std in &mut change.std {
+        *std = std.filter(|std| *std > ROUNDING * size);
+    }
+    change
+}
+
+fn in_sigma(change: &LedgerEntry) -> Option<f64> {
+    let numbers = change.value.iter().flatten().zip(&change.std);
+    numbers.filter_map(|(value, std)| Some(value.abs() / (*std)?)).max_by(f64::total_cmp)
 }
 
 /// The numbers that the ledger is made from, named as in the result's `uncertainty`; what isn't known

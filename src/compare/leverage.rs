@@ -32,6 +32,7 @@ pub(super) struct Leverage {
 #[derive(Clone, Copy)]
 enum Step {
     CollisionTime,
+    Gravity(usize),
     Position(usize),
     Orientation(usize),
     Velocities(usize),
@@ -108,7 +109,8 @@ fn is_free(scene: &Scene, result: &Reconstruction) -> bool {
 }
 
 fn steps() -> Vec<Step> {
-    let vectors = [Step::Position, Step::Orientation, Step::Velocities, Step::Omegas];
+    let vectors =
+        [Step::Gravity, Step::Position, Step::Orientation, Step::Velocities, Step::Omegas];
     let axes = vectors.into_iter().flat_map(|vector| (0..3).map(vector));
     std::iter::once(Step::CollisionTime).chain(axes).collect()
 }
@@ -119,6 +121,7 @@ impl Step {
         let of = |vector: &str, at: usize| format!("{body}.{vector}.{}", ["x", "y", "z"][at]);
         match self {
             Step::CollisionTime => vec!["collision_time".into()],
+            Step::Gravity(at) => vec![format!("gravity.{}", ["x", "y", "z"][at])],
             Step::Position(at) => vec![of("position", at)],
             Step::Orientation(at) => vec![of("orientation", at)],
             Step::Velocities(at) => vec![of("velocity_before", at), of("velocity_after", at)],
@@ -139,9 +142,12 @@ impl Step {
         if let Step::CollisionTime = self {
             beside.collision_time.value = beside.collision_time.value.map(|time| time + length);
         }
+        if let (Step::Gravity(at), Some(gravity)) = (self, &mut beside.gravity) {
+            gravity[at] += length;
+        }
         for body in &mut beside.bodies {
             match self {
-                Step::CollisionTime => {}
+                Step::CollisionTime | Step::Gravity(_) => {}
                 Step::Position(at) => body.position[at] += length,
                 Step::Orientation(at) => {
                     let turn = UnitQuaternion::new(Vector3::ith(at, length));

@@ -14,6 +14,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal, St
 
 /// Fewer poses have no shape.
 const LEAST_POSES: usize = 4;
+/// In σ. Residuals that are all smaller have an order that is the solver's rounding, and matters to
+/// nobody.
+const NEGLIGIBLE: f64 = 0.05;
 /// A channel is called structured below.
 const SIGNIFICANT: f64 = 0.01;
 /// Where the fit has eaten more of a pattern than this share of its variance leaves, what is left is
@@ -116,8 +119,14 @@ impl Series {
             for (test, contrast) in self.contrasts() {
                 tests.push(self.sum(&null, test, &contrast));
             }
-            tests.push(null.simulated(TestName::Runs, &self.values, run_length));
-            tests.push(null.simulated(TestName::Autocorrelation, &self.values, autocorrelation));
+            if self.values.amax() > NEGLIGIBLE {
+                tests.push(null.simulated(TestName::Runs, &self.values, run_length));
+                tests.push(null.simulated(
+                    TestName::Autocorrelation,
+                    &self.values,
+                    autocorrelation,
+                ));
+            }
             tests.push(self.outlier(&null));
         }
         let least = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
@@ -183,14 +192,24 @@ impl Series {
         2.0 * tail
     }
 
-    /// The shape by the clearest test. Where several are beyond doubt, a pose with most of the squares
-    /// is the cause, else the smooth shape with most of them.
+    /// Whether one pose has most of the squares, and doesn't take its neighbours along as a smooth shape
+    /// would.
+    fn stands_alone(&self) -> bool {
+        let pose = self.values.iamax();
+        let largest = self.values[pose];
+        let neighbours = [pose.checked_sub(1), Some(pose + 1)].into_iter().flatten();
+        let mut along = neighbours.filter_map(|at| self.values.get(at)).map(|near| near / largest);
+        let is_alone = along.all(|share| share < 0.25);
+        is_alone && largest * largest > 0.5 * self.values.norm_squared()
+    }
+
+    /// The shape by the clearest test. Where several are beyond doubt, a pose that stands alone is the
+    /// cause, else the largest smooth shape.
     fn pattern(&self, tests: &[RandomnessTest], least: f64) -> Pattern {
         let clear: Vec<&RandomnessTest> =
             tests.iter().filter(|test| test.p_value <= least.max(CERTAIN)).collect();
         let is_clear = |name: TestName| clear.iter().any(|test| test.test == name);
-        let largest = self.values.amax().powi(2);
-        if is_clear(TestName::Outlier) && largest > 0.5 * self.values.norm_squared() {
+        if is_clear(TestName::Outlier) && self.stands_alone() {
             return Pattern::Outlier;
         }
         let smooth = clear.iter().filter_map(|test| {

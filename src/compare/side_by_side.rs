@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::ledger::{LedgerEntry, ledger};
 use super::{Difference, Entry, Quantity};
 use crate::reconstruct::Estimate;
 use crate::rigid_body::quaternion::from_wxyz;
@@ -56,6 +57,21 @@ impl<'a> Column<'a> {
         column.vector("contact_point", "m", result.contact_point, None);
         column.vector("impulse", "N·s/kg", Some(result.impulse), None);
         column.vector("normal", "", result.normal, None);
+        // Of all bodies together: the last lines.
+        let lines = ledger(scene, result).lines;
+        let all = lines.last().map(|line| line.body.clone());
+        for line in lines.into_iter().filter(|line| Some(&line.body) == all.as_ref()) {
+            let unit = match line.quantity.as_str() {
+                "momentum" => "N·s/kg",
+                "angular_momentum" => "N·m·s/kg",
+                "energy" => "J/kg",
+                _ => continue,
+            };
+            let LedgerEntry { value, std } = line.change;
+            let reason = value.is_none().then(|| NOT_DETERMINED.to_string());
+            let entry = Entry { value, std, reason };
+            column.rows.push((format!("{}_change", line.quantity), unit, entry));
+        }
         for body in &result.bodies {
             let name = |quantity: &str| format!("{}.{quantity}", body.name);
             let why = body.reason.as_deref();

@@ -191,6 +191,14 @@ fn a_wrong_pose_is_found() {
     // 50 mm, but for the noise of that pose.
     assert!((largest.size - 0.05).abs() < 0.01, "{} m", largest.size);
     assert_eq!(largest.in_sigma, Some(largest.size / 0.002));
+    let [outlier] = comparison.results[0].outliers.as_slice() else { panic!("one wrong pose") };
+    assert_eq!((outlier.body.as_str(), outlier.time), ("b", largest.time));
+    assert_eq!(
+        (outlier.channel.as_str(), Some(outlier.deviations)),
+        ("position", largest.in_sigma)
+    );
+    let right = compared(&scene("boxes"), &[&refined]);
+    assert_eq!((&right.results[0].outliers, &right.results[0].findings), (&vec![], &vec![]));
     assert!(
         compared(&scene("boxes"), &[&refined]).results[0]
             .channels
@@ -382,7 +390,34 @@ fn the_command_tells_in_words_and_in_json() {
     assert_eq!(success(run(folder.path(), &arguments)), written);
 
     let alone = success(run(folder.path(), &["scene.json", "refined.json"]));
-    assert!(!alone.contains("difference") && alone.contains("No channel is off"), "{alone}");
+    assert!(!alone.contains("difference") && alone.contains("Nothing looks structured"), "{alone}");
+    assert!(alone.contains("angular momentum") && alone.contains("energy of spin"), "{alone}");
+    // A screen.
+    assert!(alone.lines().count() < 50, "{alone}");
+}
+
+/// A picture for each result and body, in a folder that is made; results of one name are told apart.
+#[test]
+fn the_command_draws() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("other")).unwrap();
+    fs::copy(folder.path().join("paper.json"), folder.path().join("other/refined.json")).unwrap();
+    let arguments = ["scene.json", "refined.json", "other/refined.json", "--svg", "plots"];
+    success(run(folder.path(), &arguments));
+    let mut files: Vec<String> = fs::read_dir(folder.path().join("plots"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    files.sort();
+    let expected = ["refined-a-2.svg", "refined-a.svg", "refined-b-2.svg", "refined-b.svg"];
+    assert_eq!(files, expected);
+    let svg = |name| fs::read_to_string(folder.path().join("plots").join(name)).unwrap();
+    assert!(svg("refined-a.svg").contains("refined.json: a, poses minus model"));
+    assert_ne!(svg("refined-a.svg"), svg("refined-a-2.svg"));
+    let output = run(folder.path(), &["scene.json", "refined.json", "--svg", "scene.json"]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(message.contains("scene.json") && message.contains("folder"), "{message}");
 }
 
 #[test]

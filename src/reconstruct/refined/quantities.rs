@@ -23,6 +23,8 @@ pub(super) struct Collision {
     /// `None` without an impulse.
     pub(super) contact: Option<Contact>,
     pub(super) states: Vec<States>,
+    /// The acceleration that all flights share, in m/s²: the scene's, tilted.
+    pub(super) gravity: Vector3<f64>,
 }
 
 /// The collision that `unknowns` stand for.
@@ -83,7 +85,14 @@ pub(super) fn collision(
         impulse,
         contact,
         states,
+        gravity: gravity(refined, unknowns.tilt),
     })
+}
+
+fn gravity(scene: &RefinedScene, tilt: [f64; 2]) -> Vector3<f64> {
+    let [first, second] = scene.across.map(Vector3::from);
+    let along = Vector3::from(scene.down) + tilt[0] * first + tilt[1] * second;
+    scene.gravity_m_s2 * along.normalize()
 }
 
 /// The names of [`Collision::flat`], in its order.
@@ -99,6 +108,7 @@ pub(super) fn names(scene: &Scene) -> Vec<String> {
             names.extend(vector(&format!("{}.{quantity}", body.name)));
         }
     }
+    names.extend(vector("gravity"));
     names
 }
 
@@ -151,6 +161,7 @@ impl Collision {
             push(&before.angular_momentum_in_world);
             push(&after.angular_momentum_in_world);
         }
+        push(&self.gravity);
         flat
     }
 }

@@ -1,7 +1,5 @@
 //! From the optimum to a reconstruction, with what is sure and what is doubtful.
 
-use nalgebra::Vector3;
-
 use super::alternatives::alternatives;
 use super::fitted::Fitted;
 use super::layout::Layout;
@@ -97,7 +95,7 @@ pub(crate) fn reconstruction(
         impulse: collision.impulse.into(),
         normal: contact.map(|contact| contact.normal_in_world.into_inner().into()),
         bodies: bodies(scene, &collision, &deviations),
-        gravity: Some(gravity(refined, best.solution.unknowns.tilt).into()),
+        gravity: Some(collision.gravity.into()),
         effects: effects(scene, fitted, &deviations),
         noise: Some(noise_report(&has_spin, fitted.noise)),
         uncertainty: all_noise_known(refined, fitted.noise).then(|| deviations.table(names(scene))),
@@ -116,13 +114,6 @@ fn contact_point_is_known(scene: &Scene, deviations: &Deviations) -> bool {
     let limit_m = 0.5 * extents.fold(f64::INFINITY, f64::min);
     let stds = &deviations.std[CONTACT_POINT..CONTACT_POINT + 3];
     stds.iter().all(|std| std.is_some_and(|std| std < limit_m))
-}
-
-/// The acceleration that all flights share, in m/s²: the scene's, tilted.
-fn gravity(scene: &RefinedScene, tilt: [f64; 2]) -> Vector3<f64> {
-    let [first, second] = scene.across.map(Vector3::from);
-    let along = Vector3::from(scene.down) + tilt[0] * first + tilt[1] * second;
-    scene.gravity_m_s2 * along.normalize()
 }
 
 /// Makes numbers with a deviation and an interval.

@@ -117,8 +117,11 @@ fn deviations_go_with_the_noise() {
     };
     let (whole, half) = (said(1.0).uncertainty.unwrap(), said(0.5).uncertainty.unwrap());
     for ((name, whole), half) in whole.quantities.iter().zip(&whole.std).zip(&half.std) {
-        let ratio = half.unwrap() / whole.unwrap();
-        assert!((ratio - 0.5).abs() < 1e-4, "{name}: {ratio}");
+        // Along itself gravity can't vary: a tilt turns it.
+        if name != "gravity.y" {
+            let ratio = half.unwrap() / whole.unwrap();
+            assert!((ratio - 0.5).abs() < 1e-4, "{name}: {ratio}");
+        }
     }
 }
 
