@@ -65,6 +65,7 @@ MatrixX Prior(const RefinedScene& scene, const RefinedBlocks& blocks, double& ch
 
 }  // namespace
 
+// With a Jacobian the information follows from it: the channels' are left at zero.
 void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights,
                const RefinedBlocks& blocks, bool with_jacobian, RefinedSolution& solution) {
   MatrixX position = MatrixX::Zero(blocks.size, blocks.size);
@@ -83,13 +84,13 @@ void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights,
     int row = 0;
     for (const FlightPose& pose : flight.poses) {
       const int count = flight.Rows(scene, pose);
-      Accumulate(jacobian.middleRows(row, 3), position);
+      if (!with_jacobian) Accumulate(jacobian.middleRows(row, 3), position);
       Seen seen{};
       for (int i = 0; i < 3; ++i) {
         seen.residual.position_m[i] = residuals[row + i] * pose.position_std_m;
       }
       if (count == 6) {
-        Accumulate(jacobian.middleRows(row + 3, 3), orientation);
+        if (!with_jacobian) Accumulate(jacobian.middleRows(row + 3, 3), orientation);
         for (int i = 0; i < 3; ++i) {
           seen.residual.turn_rad[i] = residuals[row + 3 + i] * pose.orientation_std_rad;
         }

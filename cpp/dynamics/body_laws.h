@@ -68,7 +68,17 @@ class BodyLaws {
   }
 
   bool Has(Hook hook) const { return !runs_[static_cast<int>(hook)].empty(); }
-  bool HasForces() const { return Has(Hook::kAcceleration) || Has(Hook::kTorque); }
+  // Whether the rotation isn't free, or the path depends on it.
+  bool CouplesRotation() const {
+    if (Has(Hook::kTorque)) return true;
+    for (const Acting& acting : runs_[static_cast<int>(Hook::kAcceleration)]) {
+      const Law& law = acting.run.law();
+      if (law.Uses(kInputOrientation, 4) || law.Uses(kInputOmega, 3) || law.Uses(kInputSpin, 3)) {
+        return true;
+      }
+    }
+    return false;
+  }
 
   Vector3<T> Acceleration(const T& time_s, const FlightState<T>& state, const Vector3<T>& omega) {
     return Sum(Hook::kAcceleration, time_s, state, omega);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dynamics/body_laws.h"
-#include "dynamics/free_rotation.h"
+#include "dynamics/free_turn.h"
 
 namespace smash {
 
@@ -65,21 +65,42 @@ class ForcedFlight {
   }
 
   void Integrate(const T& time_s, int steps) {
-    const T step_s = (time_s - time_s_) / T(steps);
-    for (int step = 0; step < steps; ++step) {
-      if (laws_.HasForces()) {
-        Step(T(time_s_ + T(step) * step_s), step_s);
+    const T span_s = time_s - time_s_;
+    const T step_s = span_s / T(steps);
+    if (laws_.CouplesRotation()) {
+      for (int step = 0; step < steps; ++step) Step(T(time_s_ + T(step) * step_s), step_s);
+    } else {
+      if (turns_) state_.q = TurnFreely(state_.q, state_.l, inverse_inertia_, span_s, steps);
+      if (laws_.Has(Hook::kAcceleration)) {
+        for (int step = 0; step < steps; ++step) StepPath(T(time_s_ + T(step) * step_s), step_s);
       } else {
-        StepFree(step_s);
+        state_.p += span_s * (state_.v + (T(0.5) * span_s) * gravity_);
+        state_.v += span_s * gravity_;
       }
     }
     time_s_ = time_s;
   }
 
-  void StepFree(const T& step_s) {
-    state_.p += step_s * (state_.v + (T(0.5) * step_s) * gravity_);
-    state_.v += step_s * gravity_;
-    if (turns_) state_.q = RungeKuttaStep(state_.q, state_.l, inverse_inertia_, step_s);
+  // Of the path alone, where no law looks at the rotation.
+  void StepPath(const T& time_s, const T& step_s) {
+    const T half_s = T(0.5) * step_s;
+    const auto rate = [&](const T& at_s, const Vector3<T>& p, const Vector3<T>& v) {
+      FlightState<T> state = state_;
+      state.p = p;
+      state.v = v;
+      return Vector3<T>(gravity_ + laws_.Acceleration(at_s, state, Vector3<T>::Constant(T(0))));
+    };
+    const Vector3<T> v1 = state_.v;
+    const Vector3<T> a1 = rate(time_s, state_.p, v1);
+    const Vector3<T> v2 = v1 + half_s * a1;
+    const Vector3<T> a2 = rate(T(time_s + half_s), state_.p + half_s * v1, v2);
+    const Vector3<T> v3 = v1 + half_s * a2;
+    const Vector3<T> a3 = rate(T(time_s + half_s), state_.p + half_s * v2, v3);
+    const Vector3<T> v4 = v1 + step_s * a3;
+    const Vector3<T> a4 = rate(T(time_s + step_s), state_.p + step_s * v3, v4);
+    const T sixth_s = step_s / T(6);
+    state_.p += sixth_s * (v1 + T(2) * (v2 + v3) + v4);
+    state_.v += sixth_s * (a1 + T(2) * (a2 + a3) + a4);
   }
 
   void Step(const T& time_s, const T& step_s) {

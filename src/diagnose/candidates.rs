@@ -4,7 +4,7 @@ use super::FALSE_ALARM;
 use super::evidence::{Evidence, evidence};
 use super::held_out::{HeldOut, held_out};
 use crate::effect::{EffectRequest, Hook, Scan, catalogue};
-use crate::reconstruct::refined::{Fitted, Instance, gains, instances, points, possible};
+use crate::reconstruct::refined::{Fitted, Instance, gains, instances, points, possible, scanned};
 use crate::{Result, Scene};
 
 /// Candidates that are refitted in any case, the best by score.
@@ -73,31 +73,23 @@ pub(super) fn promising(
     fitted: &Fitted,
     instances: &[Instance],
 ) -> Result<Vec<Instance>> {
-    let mut tests: Vec<(Instance, Vec<f64>)> = Vec::new();
-    let mut owner = Vec::new();
-    for (index, instance) in instances.iter().enumerate() {
-        let null = instance.null();
-        match instance.scan() {
-            Some((Scan::ObservationTimes | Scan::GapTimes, place)) => {
-                for point in points(scene, instance) {
-                    let mut values = null.clone();
-                    values[place] = point;
-                    tests.push((instance.clone(), values));
-                    owner.push(index);
-                }
-            }
-            _ => {
-                tests.push((instance.clone(), null));
-                owner.push(index);
-            }
-        }
-    }
-    let gains = gains(fitted, &tests)?;
+    let is_scanned = |instance: &Instance| {
+        matches!(instance.scan(), Some((Scan::ObservationTimes | Scan::GapTimes, _)))
+    };
+    let (scans, others): (Vec<usize>, Vec<usize>) =
+        (0..instances.len()).partition(|&index| is_scanned(&instances[index]));
+    let tests: Vec<(Instance, Vec<f64>)> =
+        others.iter().map(|&i| (instances[i].clone(), instances[i].null())).collect();
     let mut scores = vec![f64::NEG_INFINITY; instances.len()];
-    let per_parameter = fitted.numbers().ln();
-    for ((owner, gain), (instance, _)) in owner.iter().zip(&gains).zip(&tests) {
-        let score = gain - per_parameter * instance.null().len() as f64;
-        scores[*owner] = scores[*owner].max(score);
+    for (&index, gain) in others.iter().zip(gains(fitted, &tests)?) {
+        scores[index] = gain;
+    }
+    for index in scans {
+        let scanned = scanned(fitted, scene, &instances[index])?;
+        scores[index] = scanned.iter().map(|scanned| scanned.gain).fold(0.0, f64::max);
+    }
+    for (score, instance) in scores.iter_mut().zip(instances) {
+        *score -= fitted.numbers().ln() * instance.null().len() as f64;
     }
     let mut order: Vec<usize> = (0..instances.len()).collect();
     order.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
@@ -123,9 +115,11 @@ pub(super) fn candidate(
     let evidence = evidence(without, &with, scanned, tried)?;
     let bic = evidence.bic(with.numbers(), instance.is_of_a_pose().then_some(scanned));
     let held_out = before.zip(held_out(&with)).map(|(before, after)| [before, after]);
-    let predicts = held_out.is_none_or(|[before, after]| {
-        let noise = without.noise.value;
-        after.in_sigma(noise) < before.in_sigma(noise)
-    });
+    // What happens at one moment can't be told from the other poses.
+    let predicts = instance.is_of_a_moment()
+        || held_out.is_none_or(|[before, after]| {
+            let noise = without.noise.value;
+            after.in_sigma(noise) < before.in_sigma(noise)
+        });
     Some(Candidate { fitted: with, evidence, bic, held_out, predicts })
 }

@@ -7,8 +7,8 @@ pub use ladder::{IMPROVEMENT_SCHEMA, Improvement, Rung};
 
 use crate::diagnose::{Verdict, held_out, reported};
 use crate::effect::EffectRequest;
-use crate::reconstruct::refined::{self, Fitted};
 use crate::reconstruct::RefinedOptions;
+use crate::reconstruct::refined::{self, Fitted};
 use crate::{Result, Scene};
 
 /// Improves the model of `scene`, that of `options`, effect by effect. `further`: candidates beyond

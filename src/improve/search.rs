@@ -2,8 +2,10 @@
 //! single effect of two is often neither (a further impact imitates much), and what became
 //! superfluous is dropped at the end.
 
-use crate::diagnose::{Candidate, FALSE_ALARM, Goodness, all_candidates, evidence, reported, tried};
 use crate::compare::channels;
+use crate::diagnose::{
+    Candidate, FALSE_ALARM, Goodness, all_candidates, evidence, reported, tried,
+};
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{Fitted, Instance};
 use crate::{Result, Scene};
@@ -39,11 +41,7 @@ struct Hypothesis {
 }
 
 /// Climbs from `base` until no effect stands out any more.
-pub(super) fn best_model(
-    scene: &Scene,
-    base: &Fitted,
-    further: &[EffectRequest],
-) -> Result<Found> {
+pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]) -> Result<Found> {
     let mut best = Hypothesis { fitted: base.clone(), steps: Vec::new(), bic: 0.0 };
     let mut climbing = vec![best.clone()];
     for _ in 0..MOST_EFFECTS {

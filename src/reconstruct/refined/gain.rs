@@ -6,7 +6,7 @@ use super::acting::Instance;
 use super::fitted::Fitted;
 use super::optimum::{evaluated, information};
 use crate::Result;
-use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
+use crate::bridge::refined::ffi::{RefinedBody, RefinedPose, RefinedScene, RefinedUnknowns};
 use crate::effect::Scan;
 use crate::scene::Gap;
 
@@ -44,6 +44,26 @@ pub(crate) fn linearised(
     }
     residuals.resize(data + 2, 0.0);
     Ok(Linearised { residuals: DVector::from_vec(residuals), jacobian })
+}
+
+/// By how much χ² would fall without each single pose, by body, with its stamp: what the others say
+/// of it by the hat matrix H, r (1 − H)⁻¹ r.
+pub(super) fn gains_without(fitted: &Fitted) -> Result<Vec<Vec<(f64, f64)>>> {
+    let best = fitted.best();
+    let tangent = linearised(&fitted.refined, &best.solution.unknowns, best.gap)?;
+    let mut row = 0;
+    let mut gain = |body: &RefinedBody, pose: &RefinedPose| {
+        let count = if body.has_spin && pose.has_orientation { 6 } else { 3 };
+        let jacobian = tangent.jacobian.rows(row, count);
+        let residuals = tangent.residuals.rows(row, count);
+        row += count;
+        let rest = DMatrix::identity(count, count)
+            - jacobian * &best.covariance.matrix * jacobian.transpose();
+        let predicted = rest.lu().solve(&residuals);
+        (pose.time_s, predicted.map_or(0.0, |predicted| residuals.dot(&predicted).max(0.0)))
+    };
+    let bodies = fitted.refined.bodies.iter();
+    Ok(bodies.map(|body| body.poses.iter().map(|pose| gain(body, pose)).collect()).collect())
 }
 
 /// By how much χ² would fall with each of `candidates`, whose scalars are given, all else refitted;

@@ -35,7 +35,7 @@ pub(crate) use self::acting::{Acting, Instance, instances, possible};
 pub(crate) use self::fitted::Fitted;
 pub(crate) use self::gain::{Linearised, gains, linearised};
 pub(crate) use self::report::reconstruction as report;
-pub(crate) use self::starts::points;
+pub(crate) use self::starts::{points, scanned};
 
 use super::{Intervals, Loss, Reconstruction, RefinedOptions};
 use crate::{Error, ErrorKind, Result, Scene};

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::acting::{Acting, Instance};
 use super::fitted::Fitted;
-use super::gain::{gains, linearised};
+use super::gain::{gains, gains_without, linearised};
 use super::model::{has_plane, refined_scene};
 use super::optimum::Optimum;
 use super::parabolas::Parabolas;
@@ -23,7 +23,9 @@ const HOPELESS: f64 = 40.0;
 /// Costs that differ by less, of their size, are of one optimum.
 const SAME: f64 = 1e-5;
 /// Points of a scan that are tried.
-const MOST_POINTS: usize = 3;
+const MOST_POINTS: usize = 2;
+/// Gaps that a scan looks into.
+const MOST_GAPS: usize = 16;
 /// Delays of a time scan, in frames.
 const FRAMES: [f64; 10] = [-3.0, -2.0, -1.5, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0, 3.0];
 
@@ -55,15 +57,13 @@ pub(super) fn starts(
         None => starts.extend(beside_the_null(refined, acting, &starts[0])?),
         Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)?),
         Some((_, place)) => {
-            let points = points(scene, &acting.instance);
-            let gains = scanned(nested, &acting.instance, place, &points)?;
-            let mut order: Vec<usize> = (0..points.len()).collect();
-            order.sort_by(|a, b| gains[*b].total_cmp(&gains[*a]));
+            let mut scanned = scanned(nested, scene, &acting.instance)?;
+            scanned.sort_by(|a, b| b.gain.total_cmp(&a.gain));
             let (unknowns, gap) = starts[0].clone();
             starts.truncate(1);
-            starts.extend(order.iter().take(MOST_POINTS).map(|&index| {
+            starts.extend(scanned.iter().take(MOST_POINTS).map(|scanned| {
                 let mut start = unknowns.clone();
-                start.parameters[acting.first + place] = points[index];
+                start.parameters[acting.first + place] = scanned.point;
                 (start, gap)
             }));
         }
@@ -71,20 +71,38 @@ pub(super) fn starts(
     Ok(starts)
 }
 
-/// How much χ² would fall by an instance whose scanned parameter is at each of `points`.
-pub(crate) fn scanned(
-    nested: &Fitted,
-    instance: &Instance,
-    place: usize,
-    points: &[f64],
-) -> Result<Vec<f64>> {
-    let mut candidates = Vec::new();
-    for point in points {
-        let mut null = instance.null();
-        null[place] = *point;
-        candidates.push((instance.clone(), null));
-    }
-    gains(nested, &candidates)
+/// A value of a scanned parameter.
+pub(crate) struct Scanned {
+    pub(crate) point: f64,
+    /// By how much χ² would fall with it.
+    pub(crate) gain: f64,
+}
+
+/// How much χ² would fall by an instance at each point of its scan.
+pub(crate) fn scanned(nested: &Fitted, scene: &Scene, instance: &Instance) -> Result<Vec<Scanned>> {
+    let points = points(scene, instance);
+    let gains = match instance.scan() {
+        // What changes a single pose at will takes it out of the fit.
+        Some((Scan::ObservationTimes, _)) => {
+            let left_out = gains_without(nested)?;
+            let of = |time_s: &f64| {
+                let bodies = instance.bodies(&nested.refined).into_iter();
+                let poses = bodies.flat_map(|body| left_out[body].iter());
+                poses.filter(|(stamp_s, _)| stamp_s == time_s).map(|(_, gain)| gain).sum()
+            };
+            points.iter().map(of).collect()
+        }
+        Some((Scan::GapTimes, place)) => {
+            let at = |point: &f64| {
+                let mut values = instance.null();
+                values[place] = *point;
+                (instance.clone(), values)
+            };
+            gains(nested, &points.iter().map(at).collect::<Vec<_>>())?
+        }
+        Some((Scan::Frames, _)) | None => Vec::new(),
+    };
+    Ok(points.into_iter().zip(gains).map(|(point, gain)| Scanned { point, gain }).collect())
 }
 
 /// The values of the scanned parameter that make a difference.
@@ -101,7 +119,12 @@ pub(crate) fn points(scene: &Scene, instance: &Instance) -> Vec<f64> {
     match scan {
         Scan::ObservationTimes => times,
         // Before the second pose and after the last but one, the event and the pose are one.
-        Scan::GapTimes => times.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect(),
+        // The time itself is free: it moves on to the next gap.
+        Scan::GapTimes => {
+            let step = (times.len() - 1).div_ceil(MOST_GAPS).max(1);
+            let gaps = times.windows(2).skip(step / 2).step_by(step);
+            gaps.map(|pair| 0.5 * (pair[0] + pair[1])).collect()
+        }
         Scan::Frames => FRAMES.iter().map(|frames| frames * frame_s(scene, &times)).collect(),
     }
 }
@@ -134,7 +157,9 @@ fn beside_the_null(
     (unknowns, gap): &Start,
 ) -> Result<Vec<Start>> {
     let strikes = acting.instance.effect.laws.iter().any(|(hook, _)| *hook == Hook::ImpulsePoint);
-    if !strikes && !is_flat(refined, acting, unknowns, *gap)? {
+    // One parameter alone has its slope; a product of two has none where both are zero.
+    let is_product = acting.instance.effect.parameters.len() > 1;
+    if !strikes && !(is_product && is_flat(refined, acting, unknowns, *gap)?) {
         return Ok(Vec::new());
     }
     let away = away(refined, acting, unknowns);
