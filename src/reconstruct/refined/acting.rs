@@ -120,8 +120,10 @@ pub(crate) fn instances(scene: &Scene, request: &EffectRequest) -> Result<Vec<In
     let names: Vec<&str> = scene.bodies().iter().map(|body| body.name.as_str()).collect();
     match (effect.scope, body) {
         (Scope::Body, None) => Ok((0..names.len()).map(|body| instance(Some(body))).collect()),
-        // Against a plane the contact is the body's own.
-        (Scope::Contact, None) if names.len() == 1 => Ok(vec![instance(Some(0))]),
+        // What only a plane does is told of the one body that meets it.
+        (Scope::Contact, None) if effect.needs.contains(&Need::Plane) => {
+            Ok(vec![instance(Some(0))])
+        }
         (Scope::Scene | Scope::Contact, None) => Ok(vec![instance(None)]),
         (scope, Some(name)) => {
             let Some(index) = names.iter().position(|known| known == name) else {
@@ -130,7 +132,10 @@ pub(crate) fn instances(scene: &Scene, request: &EffectRequest) -> Result<Vec<In
             };
             match scope {
                 Scope::Body => Ok(vec![instance(Some(index))]),
-                Scope::Contact if names.len() == 1 => Ok(vec![instance(Some(index))]),
+                Scope::Contact if effect.needs.contains(&Need::Plane) => {
+                    Ok(vec![instance(Some(index))])
+                }
+                Scope::Contact if names.len() == 1 => Ok(vec![instance(None)]),
                 _ => Err(Error::invalid(&effect.name, "acts on all bodies together")
                     .mend(format!("leave `@{name}` out"))),
             }
