@@ -92,7 +92,7 @@ fn wanted(parameter: &Parameter) -> String {
     let [low, high] = parameter.bounds.map(limit);
     let Parameter { name, unit, typical, .. } = parameter;
     let example = if typical.is_empty() { String::new() } else { format!("; {typical}") };
-    format!("add `{name}`: {form} from {low} to {high} {unit}{example}")
+    format!("write `{name}`: {form} from {low} to {high} {unit}{example}")
 }
 
 /// What concerns single poses must hit one.

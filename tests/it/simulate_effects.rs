@@ -417,10 +417,10 @@ fn a_broken_effect_is_named_with_its_place_and_mend() {
     let broken = [
         (effect("linear_darg", None, &[]), "effects[0].name", "linear_drag"),
         (effect("-", None, &[]), "effects[0].name", "catalogue"),
-        (drag(&[]), "effects[0].parameters", "`k`: a number from 0 to 100 1/s"),
+        (drag(&[]), "effects[0].parameters", "`k`: a number from 0 to 1000 1/s"),
         (drag(&[("k", &[0.1]), ("K", &[1.0])]), "effects[0].parameters", "did you mean `k`?"),
-        (drag(&[("k", &[-0.1])]), "effects[0].parameters.k", "0 to 100"),
-        (drag(&[("k", &[f64::NAN])]), "effects[0].parameters.k", "0 to 100"),
+        (drag(&[("k", &[-0.1])]), "effects[0].parameters.k", "0 to 1000"),
+        (drag(&[("k", &[f64::NAN])]), "effects[0].parameters.k", "0 to 1000"),
         (drag(&[("k", &[0.1, 0.2, 0.3])]), "effects[0].parameters.k", "a number"),
         (effect("linear_drag", Some("c"), &[("k", &[0.1])]), "effects[0]", "`a`"),
         (effect("gravity_scale", Some("a"), &[("s", &[1.1])]), "effects[0]", "leave `@a` out"),
