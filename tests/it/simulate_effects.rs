@@ -51,7 +51,7 @@ fn assert_near(found: Vector3<f64>, expected: Vector3<f64>, tolerance: f64) {
     assert!(off < tolerance, "{found} isn't {expected}: {off:e} off");
 }
 
-fn seen<'a>(simulation: &'a Simulation, body: usize) -> &'a [ObservationFile] {
+fn seen(simulation: &Simulation, body: usize) -> &[ObservationFile] {
     simulation.scene_file.bodies[body].observations.as_deref().unwrap()
 }
 
