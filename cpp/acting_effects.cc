@@ -12,7 +12,7 @@ namespace smash {
 namespace {
 
 // Of a flight that is only looked at, not fitted: errors below 1e-9.
-constexpr double kStepRad = 0.02;
+constexpr double kStepRad = 0.01;
 constexpr double kStepS = 0.002;
 
 Law ToLaw(const ActingLaw& acting) {

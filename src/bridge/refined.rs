@@ -4,7 +4,7 @@
 #[cxx::bridge(namespace = "smash")]
 pub(crate) mod ffi {
     /// An annotated pose and one σ of each of its coordinates.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug, Clone, Copy, PartialEq)]
     struct RefinedPose {
         time_s: f64,
         position: [f64; 3],
@@ -16,7 +16,7 @@ pub(crate) mod ffi {
     }
 
     /// A body that moves.
-    #[derive(Debug, Clone)]
+    #[derive(Debug, Clone, PartialEq)]
     struct RefinedBody {
         /// Principal moments of unit mass, m².
         inertia_per_mass: [f64; 3],
@@ -66,7 +66,7 @@ pub(crate) mod ffi {
     }
 
     /// What is known: one or two bodies, and maybe a plane.
-    #[derive(Debug, Clone)]
+    #[derive(Debug, Clone, PartialEq)]
     struct RefinedScene {
         gravity_m_s2: f64,
         /// Unit vector along gravity.

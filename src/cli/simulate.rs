@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use smash::Result;
 use smash::files::{Output, check_distinct, display_name, print_bytes, shell_word, write_together};
-use smash::simulate::{NoiseSpec, Simulation, SimulationSpec, simulate};
+use smash::simulate::{EffectSpec, NoiseSpec, Simulation, SimulationSpec, simulate};
 
 /// Makes a scene from bodies, their speeds and a collision, with sampling and noise
 #[derive(Args)]
@@ -78,6 +78,14 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
         // The library may learn others.
         _ => format!("as specified, seed {}", spec.seed),
     };
+    let acts = |effect: &EffectSpec| match &effect.body {
+        Some(body) => format!("{}@{body}", effect.name),
+        None => effect.name.clone(),
+    };
+    let effects = match truth.effects.iter().map(acts).collect::<Vec<_>>().join(", ") {
+        none if none.is_empty() => String::new(),
+        some => format!("  effects              {some}\n"),
+    };
     let scene = arguments.output.display();
     let word = shell_word(&arguments.output.to_string_lossy());
     format!(
@@ -87,12 +95,14 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
          \x20 collision time       {:.4} s\n\
          \x20 impulse on a         ({x:.3}, {y:.3}, {z:.3}) N·s per kg of a\n\
          \x20 seen                 {}\n\
+         {}\
          \x20 noise                {noise}\n\n\
          Written: {scene}\n\
          Next:    smash reconstruct {word}\n",
         truth.restitution,
         truth.collision_time,
         seen.collect::<Vec<_>>().join(", "),
+        effects,
     )
 }
 

@@ -185,7 +185,7 @@ pub struct ParameterEstimate {
 
 /// A scalar, or a vector.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "is no value of a parameter; write a number, or a list of three")]
 pub enum Number {
     /// One number.
     Scalar(f64),

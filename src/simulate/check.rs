@@ -6,11 +6,12 @@ use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use super::contact::{Strike, check_strike};
 use super::instant::{Instant, instants};
+use super::model::Model;
 use super::{BodySpec, NoiseSpec, SIMULATION_SCHEMA, SimulationSpec};
 use crate::json::check_schema;
 use crate::rigid_body::RigidBody;
 use crate::scene::body::{self, solid};
-use crate::scene::bounds::{FPS, GRAVITY_M_S2};
+use crate::scene::bounds::{FPS, GRAVITY_M_S2, TIME_S};
 use crate::scene::values::{
     check_name, check_noise, check_range, needed, position, refuse, unit_quaternion, unit_vector,
 };
@@ -25,16 +26,28 @@ const MASS_RATIO: RangeInclusive<f64> = 1e-9..=1e9;
 
 /// A specification after all checks, in the terms of mechanics.
 pub(super) struct Setup {
+    pub stage: Stage,
+    pub strike: Strike,
+    /// Where there are effects.
+    pub model: Option<Model>,
+}
+
+/// Where, and who.
+pub(super) struct Stage {
     pub up_in_world: UnitVector3<f64>,
     pub a: Actor,
     pub partner: Partner,
-    pub strike: Strike,
 }
 
-impl Setup {
+impl Stage {
     /// The dynamic bodies, a first.
     pub fn actors(&self) -> impl Iterator<Item = &Actor> {
         std::iter::once(&self.a).chain(self.partner.body())
+    }
+
+    /// The dynamic bodies just before the collision, a first.
+    pub fn before(&self) -> Vec<RigidBody> {
+        self.actors().map(|actor| actor.before).collect()
     }
 }
 
@@ -44,7 +57,7 @@ pub(super) struct Actor {
     pub index: usize,
     pub name: String,
     pub shape: Shape,
-    /// Just before the impulse.
+    /// Just before the impulse, at its centre of mass.
     pub before: RigidBody,
     /// When it is seen.
     pub instants: Vec<Instant>,
@@ -63,6 +76,13 @@ impl Partner {
             Partner::Plane(_) => None,
         }
     }
+
+    fn body_mut(&mut self) -> Option<&mut Actor> {
+        match self {
+            Partner::Body(actor) => Some(actor),
+            Partner::Plane(_) => None,
+        }
+    }
 }
 
 pub(super) fn setup(spec: &SimulationSpec) -> Result<Setup> {
@@ -75,9 +95,22 @@ pub(super) fn setup(spec: &SimulationSpec) -> Result<Setup> {
     check_range("gravity", spec.gravity, &GRAVITY_M_S2, mend)?;
     check_noise_spec(&spec.noise)?;
     let up_in_world = unit_vector("up", spec.up)?;
+    check_range("collision.time", spec.collision.time, &TIME_S, "give the time in s")?;
+    position("collision.contact_point", spec.collision.contact_point)?;
     let (a, partner) = bodies(spec)?;
-    let strike = check_strike(&spec.collision, &a, &partner)?;
-    Ok(Setup { up_in_world, a, partner, strike })
+    let mut stage = Stage { up_in_world, a, partner };
+    let mut model = Model::new(spec, &stage)?;
+    if let Some(model) = &mut model {
+        let Stage { a, partner, .. } = &mut stage;
+        for (index, actor) in std::iter::once(a).chain(partner.body_mut()).enumerate() {
+            model.complete(index, &mut actor.before)?;
+        }
+    }
+    let strike = check_strike(&spec.collision, &stage, model.as_ref())?;
+    if let Some(model) = &mut model {
+        model.strike(&strike.impulse_on_a);
+    }
+    Ok(Setup { stage, strike, model })
 }
 
 fn check_noise_spec(noise: &NoiseSpec) -> Result<()> {

@@ -13,8 +13,9 @@ const LARGEST_OVERLAP_M: f64 = 1e-3;
 /// Whether `spec` is valid and its bodies keep apart at every instant at which a is seen.
 pub(super) fn is_clear(spec: &SimulationSpec) -> bool {
     let Ok(setup) = setup(spec) else { return false };
-    let motions = motions(spec, &setup);
+    let Ok(motions) = motions(spec, &setup) else { return false };
     setup
+        .stage
         .a
         .instants
         .iter()
@@ -32,14 +33,15 @@ pub(super) fn half_extent(shape: &Shape) -> Vector3<f64> {
 /// How deep a corner of one body (or the rim of a ball) is within the other, in m.
 fn overlap_m(setup: &Setup, motions: &[Motion], time_s: f64) -> f64 {
     let states: Vec<RigidBody> = motions.iter().map(|motion| motion.at(time_s)).collect();
-    match &setup.partner {
+    let stage = &setup.stage;
+    match &stage.partner {
         Partner::Plane(plane) => {
             let height_m = |point: &Vector3<f64>| plane.normal_in_world.dot(point) - plane.height_m;
-            let (points, rim_m) = outermost(&setup.a.shape, &states[0]);
+            let (points, rim_m) = outermost(&stage.a.shape, &states[0]);
             points.iter().map(|point| rim_m - height_m(point)).fold(f64::MIN, f64::max)
         }
         Partner::Body(b) => {
-            let of_a = (&setup.a.shape, &states[0]);
+            let of_a = (&stage.a.shape, &states[0]);
             let of_b = (&b.shape, &states[1]);
             depth_within_m(of_a, of_b).max(depth_within_m(of_b, of_a))
         }

@@ -3,11 +3,12 @@
 use nalgebra::{UnitVector3, Vector3};
 
 use super::CollisionSpec;
-use super::check::{Actor, Partner};
-use crate::rigid_body::{Contact, RigidBody};
+use super::check::{Actor, Partner, Stage};
+use super::model::Model;
+use super::touch::Touch;
+use crate::rigid_body::Contact;
 use crate::scene::Shape;
-use crate::scene::bounds::TIME_S;
-use crate::scene::values::{check_range, needed, position, refuse, unit_vector};
+use crate::scene::values::{needed, refuse, unit_vector};
 use crate::words::rounded;
 use crate::{Error, Result};
 
@@ -16,9 +17,6 @@ const SURFACE_TOLERANCE_M: f64 = 1e-3;
 
 /// How far a contact point may be off a static plane, in m.
 const PLANE_TOLERANCE_M: f64 = 1e-6;
-
-/// Rounding that a restitution computed from an impulse may show beyond 0 and 1.
-const RESTITUTION_ROUNDING: f64 = 1e-9;
 
 /// The collision, checked.
 pub(super) struct Strike {
@@ -34,25 +32,28 @@ enum Strength {
     Impulse(Vector3<f64>),
 }
 
-pub(super) fn check_strike(spec: &CollisionSpec, a: &Actor, partner: &Partner) -> Result<Strike> {
-    check_range("collision.time", spec.time, &TIME_S, "give the time in s")?;
-    let point_in_world = position("collision.contact_point", spec.contact_point)?;
-    check_on_plane(partner, &point_in_world)?;
-    for actor in std::iter::once(a).chain(partner.body()) {
-        check_on_surface(actor, &point_in_world)?;
+pub(super) fn check_strike(
+    spec: &CollisionSpec,
+    stage: &Stage,
+    model: Option<&Model>,
+) -> Result<Strike> {
+    let point_in_world = Vector3::from(spec.contact_point);
+    check_on_plane(&stage.partner, &point_in_world)?;
+    for (index, actor) in stage.actors().enumerate() {
+        let centre = match model {
+            Some(model) => model.shape_centre_in_world(index)?,
+            None => actor.before.position_in_world,
+        };
+        check_on_surface(actor, &centre, &point_in_world)?;
     }
     let strength = strength(spec)?;
-    let normal_in_world = normal(spec, partner, &strength)?;
+    let normal_in_world = normal(spec, &stage.partner, &strength)?;
     let contact = Contact { point_in_world, normal_in_world };
-    let other = partner.body().map(|actor| &actor.before);
-    check_approach(&contact, &a.before, other)?;
+    let touch = Touch { contact, before: stage.before(), model };
+    touch.check_approach()?;
     let (impulse_on_a, restitution) = match strength {
-        Strength::Restitution(restitution) => {
-            (contact.impulse_from_restitution(&a.before, other, restitution), restitution)
-        }
-        Strength::Impulse(impulse) => {
-            (impulse, restitution_of(&contact, &a.before, other, &impulse)?)
-        }
+        Strength::Restitution(restitution) => (touch.impulse(restitution)?, restitution),
+        Strength::Impulse(impulse) => (impulse, touch.checked_restitution(&impulse)?),
     };
     Ok(Strike { contact, impulse_on_a, restitution })
 }
@@ -71,16 +72,21 @@ fn check_on_plane(partner: &Partner, point_in_world: &Vector3<f64>) -> Result<()
         .mend(format!("the nearest point of the plane is {}", shown(&foot))))
 }
 
-fn check_on_surface(actor: &Actor, point_in_world: &Vector3<f64>) -> Result<()> {
+/// `centre` is that of the shape.
+fn check_on_surface(
+    actor: &Actor,
+    centre: &Vector3<f64>,
+    point_in_world: &Vector3<f64>,
+) -> Result<()> {
     let body = &actor.before;
-    let lever = point_in_world - body.position_in_world;
+    let lever = point_in_world - centre;
     let in_body = body.world_from_body.inverse_transform_vector(&lever);
     let nearest = nearest_surface_point(&actor.shape, &in_body);
     let off_m = (nearest - in_body).norm();
     if off_m <= SURFACE_TOLERANCE_M {
         return Ok(());
     }
-    let nearest_in_world = body.position_in_world + body.world_from_body.transform_vector(&nearest);
+    let nearest_in_world = centre + body.world_from_body.transform_vector(&nearest);
     let problem = format!("is {off_m:.4} m off the surface of `{}`", actor.name);
     Err(Error::invalid("collision.contact_point", problem).mend(format!(
         "move the point or the body; the nearest point of its surface is {}",
@@ -161,41 +167,9 @@ fn check_along_normal(impulse: &Vector3<f64>, normal: &UnitVector3<f64>) -> Resu
     }
     let frictionless = along * normal.into_inner();
     let problem = format!("has {across:.6} N·s/kg across the plane's normal: friction");
-    Err(Error::invalid("collision.impulse", problem)
-        .mend(format!("without friction it is {}", shown(&frictionless))))
-}
-
-fn check_approach(contact: &Contact, a: &RigidBody, other: Option<&RigidBody>) -> Result<()> {
-    let parting = contact.normal_velocity(a, other);
-    if parting < 0.0 {
-        return Ok(());
-    }
-    let problem = format!("the bodies don't approach there: they part with {parting:.6} m/s");
-    Err(Error::invalid("collision", problem).mend(
-        "velocities are those just before the impulse; the normal points out of b (or the plane) \
-         into a",
-    ))
-}
-
-/// The restitution that `impulse` amounts to.
-fn restitution_of(
-    contact: &Contact,
-    a: &RigidBody,
-    other: Option<&RigidBody>,
-    impulse: &Vector3<f64>,
-) -> Result<f64> {
-    let point = &contact.point_in_world;
-    let a_after = a.pushed(point, impulse);
-    let other_after = other.map(|b| b.pushed(point, &-impulse));
-    let restitution = contact.restitution((a, other), (&a_after, other_after.as_ref()));
-    if (-RESTITUTION_ROUNDING..=1.0 + RESTITUTION_ROUNDING).contains(&restitution) {
-        return Ok(restitution);
-    }
-    let least = contact.impulse_from_restitution(a, other, 0.0).norm();
-    let problem = format!("makes the restitution {restitution:.6}");
     Err(Error::invalid("collision.impulse", problem).mend(format!(
-        "give it a length from {least:.6} (no bounce) to {:.6} N·s/kg (no loss of energy)",
-        2.0 * least
+        "without friction it is {}; for friction, add the effect `friction`",
+        shown(&frictionless)
     )))
 }
 

@@ -2,13 +2,15 @@
 //!
 //! ```text
 //! specification ──► check ──► motion ──► sample ──► noise ──► scene
-//! (json)                        └─────────────────────────────► truth
+//! (json)        (effects)         └─────────────────────────────► truth
 //! ```
 
 mod check;
 mod clearance;
 mod contact;
+mod effects;
 mod instant;
+mod model;
 mod motion;
 mod noise;
 mod observe;
@@ -16,17 +18,23 @@ mod random;
 mod read;
 mod sampling;
 mod spec;
+mod touch;
 mod truth;
 
+pub use effects::EffectSpec;
 pub use motion::Motion;
 pub use noise::{NoiseSpec, add_noise};
 pub use sampling::{RegularSampling, Sampling, keep_frames};
 pub use spec::{BodySpec, CollisionSpec, SIMULATION_SCHEMA, SimulationSpec};
 pub use truth::{TRUTH_SCHEMA, TrueBody, Truth};
 
+use std::sync::Arc;
+
+use crate::rigid_body::RigidBody;
 use crate::scene::SceneFile;
 use crate::{Result, Scene};
 use check::{Setup, setup};
+use motion::Forced;
 use observe::{check_effort, scene_file};
 use truth::truth;
 
@@ -49,26 +57,39 @@ pub struct Simulation {
 /// The specification breaks a rule: the error names the field, the value and the mend.
 pub fn simulate(spec: &SimulationSpec) -> Result<Simulation> {
     let setup = setup(spec)?;
-    let motions = motions(spec, &setup);
-    check_effort(&setup, &motions)?;
-    let exact = scene_file(spec, &setup, &motions);
+    let motions = motions(spec, &setup)?;
+    check_effort(&setup.stage, &motions)?;
+    let seen =
+        setup.stage.actors().zip(&motions).map(|(actor, motion)| motion.seen(&actor.instants));
+    let exact = scene_file(spec, &setup.stage, &seen.collect::<Result<Vec<_>>>()?);
     let scene_file = add_noise(exact, &spec.noise, spec.seed);
     let scene = Scene::from_file(scene_file.clone())?;
     Ok(Simulation { scene_file, scene, truth: truth(spec, &setup, &motions), motions })
 }
 
 /// How the dynamic bodies move, a first: **J** acts on a, −**J** on b.
-fn motions(spec: &SimulationSpec, setup: &Setup) -> Vec<Motion> {
+fn motions(spec: &SimulationSpec, setup: &Setup) -> Result<Vec<Motion>> {
+    let before = setup.stage.before();
+    let gravity_in_world = -spec.gravity * setup.stage.up_in_world.into_inner();
+    let motion = |before: RigidBody, after: RigidBody, forced: Option<Forced>| Motion {
+        collision_time_s: spec.collision.time,
+        gravity_in_world,
+        before,
+        after,
+        forced,
+    };
     let impulse_on_a = setup.strike.impulse_on_a;
-    let pushes = [impulse_on_a, -impulse_on_a];
-    setup
-        .actors()
-        .zip(pushes)
-        .map(|(actor, impulse)| Motion {
-            collision_time_s: spec.collision.time,
-            gravity_in_world: -spec.gravity * setup.up_in_world.into_inner(),
-            before: actor.before,
-            after: actor.before.pushed(&setup.strike.contact.point_in_world, &impulse),
-        })
-        .collect()
+    let Some(model) = &setup.model else {
+        let point = &setup.strike.contact.point_in_world;
+        let pushed = before.into_iter().zip([impulse_on_a, -impulse_on_a]);
+        return Ok(pushed
+            .map(|(body, push)| motion(body, body.pushed(point, &push), None))
+            .collect());
+    };
+    let launched = model.launched(&before, &impulse_on_a)?;
+    let model = Arc::new(model.clone());
+    let forced = before.into_iter().zip(launched).enumerate().map(|(index, (body, to))| {
+        motion(body, to.after, Some(Forced { model: Arc::clone(&model), index }))
+    });
+    Ok(forced.collect())
 }

@@ -2,17 +2,23 @@
 
 use serde_json::json;
 
-use super::check::{Actor, Partner, Setup};
+use super::check::{Actor, Partner, Stage};
 use super::{Motion, NoiseSpec, SimulationSpec};
 use crate::rigid_body::LARGEST_TURNING_RAD;
-use crate::rigid_body::quaternion::to_wxyz;
 use crate::scene::{BodyFile, ObservationFile, SCENE_SCHEMA, SceneFile};
 use crate::{Error, Result};
 
+/// Where a body is seen, and its quaternion [w, x, y, z].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pose {
+    pub position: [f64; 3],
+    pub orientation: [f64; 4],
+}
+
 /// Refuses what would take for ever: a spin of a million turns, seen ten thousand times. All free
 /// rotations together may take as long as the longest one.
-pub(super) fn check_effort(setup: &Setup, motions: &[Motion]) -> Result<()> {
-    let total_rad: f64 = setup
+pub(super) fn check_effort(stage: &Stage, motions: &[Motion]) -> Result<()> {
+    let total_rad: f64 = stage
         .actors()
         .zip(motions)
         .flat_map(|(actor, motion)| {
@@ -30,26 +36,28 @@ pub(super) fn check_effort(setup: &Setup, motions: &[Motion]) -> Result<()> {
     )))
 }
 
-pub(super) fn scene_file(spec: &SimulationSpec, setup: &Setup, motions: &[Motion]) -> SceneFile {
-    let moving = setup.actors().zip(motions);
-    let mut bodies: Vec<(usize, BodyFile)> = moving
-        .map(|(actor, motion)| {
+/// The scene in which the dynamic bodies, a first, are `seen` so.
+pub(super) fn scene_file(spec: &SimulationSpec, stage: &Stage, seen: &[Vec<Pose>]) -> SceneFile {
+    let mut bodies: Vec<(usize, BodyFile)> = stage
+        .actors()
+        .zip(seen)
+        .map(|(actor, poses)| {
             let is_measured = spec.bodies[actor.index].measure_orientation.unwrap_or(true);
-            (actor.index, dynamic_body(actor, motion, is_measured))
+            (actor.index, dynamic_body(actor, poses, is_measured))
         })
         .collect();
-    if let Partner::Plane(plane) = &setup.partner {
-        bodies.push((1 - setup.a.index, BodyFile::from(plane)));
+    if let Partner::Plane(plane) = &stage.partner {
+        bodies.push((1 - stage.a.index, BodyFile::from(plane)));
     }
     bodies.sort_by_key(|&(index, _)| index);
     SceneFile {
         schema: SCENE_SCHEMA.into(),
         name: spec.name.clone(),
         fps: spec.fps,
-        up: setup.up_in_world.into_inner().into(),
+        up: stage.up_in_world.into_inner().into(),
         gravity: spec.gravity,
         noise: None,
-        camera: None,
+        camera: spec.camera.clone(),
         source: Some(source(spec)),
         bodies: bodies.into_iter().map(|(_, body)| body).collect(),
     }
@@ -66,20 +74,17 @@ fn source(spec: &SimulationSpec) -> serde_json::Map<String, serde_json::Value> {
     source
 }
 
-fn dynamic_body(actor: &Actor, motion: &Motion, is_orientation_measured: bool) -> BodyFile {
-    let observe = |instant: &super::instant::Instant| {
-        let body = motion.at(instant.time_s);
-        ObservationFile {
-            frame: instant.frame,
-            time: if instant.frame.is_none() { Some(instant.time_s) } else { None },
-            position: body.position_in_world.into(),
-            orientation: is_orientation_measured.then(|| to_wxyz(&body.world_from_body)),
-        }
-    };
+fn dynamic_body(actor: &Actor, poses: &[Pose], is_orientation_measured: bool) -> BodyFile {
+    let observations = actor.instants.iter().zip(poses).map(|(instant, pose)| ObservationFile {
+        frame: instant.frame,
+        time: if instant.frame.is_none() { Some(instant.time_s) } else { None },
+        position: pose.position,
+        orientation: is_orientation_measured.then_some(pose.orientation),
+    });
     BodyFile {
         name: actor.name.clone(),
         shape: Some(actor.shape),
-        observations: Some(actor.instants.iter().map(observe).collect()),
+        observations: Some(observations.collect()),
         ..BodyFile::default()
     }
 }

@@ -83,17 +83,15 @@ fn first_clear(seed: u64, draw: impl Fn(&mut ChaCha8Rng) -> SimulationSpec) -> S
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     loop {
         let spec = draw(&mut random);
-        if is_clear(&spec) && !spins_fast(&spec) {
+        if !spins_fast(&spec) && is_clear(&spec) {
             return spec;
         }
     }
 }
 
 fn spins_fast(spec: &SimulationSpec) -> bool {
-    let Ok(setup) = setup(spec) else { return true };
-    motions(spec, &setup)
-        .iter()
-        .any(|motion| motion.after.omega_in_world().norm() > FASTEST_SPIN_RAD_S)
+    let Ok(motions) = setup(spec).and_then(|setup| motions(spec, &setup)) else { return true };
+    motions.iter().any(|motion| motion.after.omega_in_world().norm() > FASTEST_SPIN_RAD_S)
 }
 
 /// A body while it is being placed.
@@ -272,6 +270,8 @@ fn spec(
         mass_ratio: None,
         bodies: bodies.into(),
         collision,
+        effects: Vec::new(),
+        camera: None,
         observations: Sampling::Regular(RegularSampling::every_frame(frame_count)),
         noise: NoiseSpec::None,
         seed: 0,

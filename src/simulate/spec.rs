@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{NoiseSpec, Sampling};
-use crate::scene::Shape;
+use super::{EffectSpec, NoiseSpec, Sampling};
 use crate::scene::file::{default_gravity, default_up};
+use crate::scene::{Camera, Shape};
 
 /// The value of a specification's field `schema`.
 pub const SIMULATION_SCHEMA: &str = "smash.simulation/1";
@@ -43,6 +43,12 @@ pub struct SimulationSpec {
     pub bodies: Vec<BodySpec>,
     /// Where, when and how the bodies collide.
     pub collision: CollisionSpec,
+    /// Physics beyond the base model, and wrong annotations; none when absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub effects: Vec<EffectSpec>,
+    /// The camera, which some effects need; the scene then states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
     /// When the bodies are seen; a body may have an `observations` of its own.
     pub observations: Sampling,
     /// The noise added to what is seen.
@@ -73,7 +79,7 @@ pub struct BodySpec {
     /// Dynamic: the solid shape.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,
-    /// Dynamic: the centre of mass at the collision, in m.
+    /// Dynamic: the centre of mass at the collision, in m; effects may put the shape's off it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub position: Option<[f64; 3]>,
     /// Dynamic: the quaternion [w, x, y, z] that maps the body to the world at the collision;
@@ -118,11 +124,13 @@ pub struct CollisionSpec {
     /// between two dynamic bodies, otherwise absent: a plane has its own, an impulse its direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
-    /// −(relative normal velocity after)/(before): from 0, no bounce, to 1, no loss.
+    /// −(relative normal velocity after)/(before) by the contact alone, with its friction but without
+    /// impulses from elsewhere: from 0, no bounce, to 1, no loss.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 1))]
     pub restitution: Option<f64>,
-    /// The impulse on a, per unit mass of a, in N·s/kg; on a static plane along its normal.
+    /// The impulse on a, per unit mass of a, in N·s/kg; on a static plane along its normal. What
+    /// effects add to it isn't counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impulse: Option<[f64; 3]>,
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{Actor, Setup};
-use super::{Motion, SimulationSpec};
+use super::{EffectSpec, Motion, SimulationSpec};
 use crate::rigid_body::quaternion::to_wxyz;
 
 /// The value of a truth file's field `schema`.
@@ -22,18 +22,21 @@ pub struct Truth {
     pub scene: String,
     /// Mass of b over mass of a; null against a static body.
     pub mass_ratio: Option<f64>,
-    /// −(relative normal velocity after)/(before).
+    /// −(relative normal velocity after)/(before) by the contact alone.
     pub restitution: f64,
     /// When the bodies collide, in s.
     pub collision_time: f64,
     /// Where the bodies touch, in the world, in m.
     pub contact_point: [f64; 3],
-    /// The impulse on a, per unit mass of a, in N·s/kg.
+    /// The impulse on a, per unit mass of a, in N·s/kg; without what effects add.
     pub impulse: [f64; 3],
     /// The impulse's direction; on a static plane, the plane's normal.
     pub normal: [f64; 3],
     /// The dynamic bodies, a first.
     pub bodies: Vec<TrueBody>,
+    /// What acted beyond the base model, one by one.
+    #[serde(default)]
+    pub effects: Vec<EffectSpec>,
 }
 
 /// A dynamic body at the collision; all in the world.
@@ -48,7 +51,7 @@ pub struct TrueBody {
     pub orientation: [f64; 4],
     /// Velocity just before, in m/s.
     pub velocity_before: [f64; 3],
-    /// Velocity just after, in m/s.
+    /// Velocity just after all that happens at the collision, in m/s.
     pub velocity_after: [f64; 3],
     /// Angular velocity just before, in rad/s.
     pub angular_velocity_before: [f64; 3],
@@ -71,10 +74,12 @@ pub(super) fn truth(spec: &SimulationSpec, setup: &Setup, motions: &[Motion]) ->
         impulse: setup.strike.impulse_on_a.into(),
         normal: setup.strike.contact.normal_in_world.into_inner().into(),
         bodies: setup
+            .stage
             .actors()
             .zip(motions)
             .map(|(actor, motion)| true_body(actor, motion))
             .collect(),
+        effects: setup.model.as_ref().map_or(Vec::new(), |model| model.effects().to_vec()),
     }
 }
 

@@ -26,3 +26,4 @@ mod scenes;
 mod schema;
 mod simulate;
 mod simulate_command;
+mod simulate_effects;

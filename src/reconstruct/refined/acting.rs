@@ -173,7 +173,7 @@ fn acting_law(hook: Hook, program: &Program) -> ActingLaw {
         sign: 1.0,
         first_parameter: 0,
         parameter_count: 0,
-        registers: program.registers.max(INPUTS as u16 + 1),
+        registers: program.registers.max(INPUTS + 1),
         result: program.result,
         instructions: program
             .instructions

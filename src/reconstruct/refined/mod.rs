@@ -7,13 +7,13 @@
 //!          spins (± turns)      choice of turns     the best starts numbers
 //! ```
 
-mod acting;
+pub(crate) mod acting;
 mod alternatives;
 mod covariance;
 mod fitted;
 mod gain;
 mod layout;
-mod model;
+pub(crate) mod model;
 mod noise;
 mod optimum;
 mod parabolas;

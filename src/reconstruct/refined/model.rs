@@ -12,7 +12,7 @@ use crate::scene::{DynamicBody, Noise, Observation};
 const LEAST_ORIENTATIONS: usize = 2;
 
 /// The scene in the solver's terms, with one noise for all poses.
-pub(super) fn refined_scene(scene: &Scene, noise: Noise, tilt_std_rad: f64) -> RefinedScene {
+pub(crate) fn refined_scene(scene: &Scene, noise: Noise, tilt_std_rad: f64) -> RefinedScene {
     let down = -scene.up_in_world().into_inner();
     let first = across(&down);
     RefinedScene {
@@ -48,7 +48,7 @@ pub(super) fn has_plane(scene: &RefinedScene) -> bool {
 }
 
 /// A unit vector across `v`.
-pub(super) fn across(v: &Vector3<f64>) -> Vector3<f64> {
+pub(crate) fn across(v: &Vector3<f64>) -> Vector3<f64> {
     v.cross(&Vector3::ith(v.iamin(), 1.0)).normalize()
 }
 

@@ -42,6 +42,8 @@ fn spinning_ball(times: &[f64]) -> SimulationSpec {
         },
         observations: Sampling::Times(times.to_vec()),
         noise: NoiseSpec::None,
+        effects: Vec::new(),
+        camera: None,
         seed: 0,
     }
 }

@@ -1,0 +1,153 @@
+//! Random scenes with hidden effects: a seed gives always the same one.
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use smash::reconstruct::Options;
+use smash::scene::{Camera, Noise, SceneFile};
+use smash::simulate::{
+    NoiseSpec, RegularSampling, Sampling, Simulation, SimulationSpec, add_noise, simulate,
+};
+use smash::{Error, ErrorKind, Result, Scene};
+
+use crate::case::Case;
+use crate::strength::{Hidden, acted_on};
+
+/// How often the bodies are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Regime {
+    /// Every frame, 60 poses of each body.
+    Dense,
+    /// 20 poses.
+    Medium,
+    /// 8 poses.
+    Sparse,
+}
+
+/// What a base fit to the exact poses must miss them by, in χ²: below that nobody can be sure.
+const LEAST_LAMBDA: f64 = 40.0;
+/// Beyond that an effect is plain to see.
+const LARGEST_LAMBDA: f64 = 1500.0;
+/// Some effects don't show on some bodies, as a ball's inertia: then another scene is drawn.
+const MOST_DRAWS: usize = 200;
+
+/// A scene with all these effects of the catalogue hidden in it.
+///
+/// # Errors
+/// No draw makes them strong enough.
+pub fn hidden_scene(effects: &[&str], regime: Regime, seed: u64) -> Result<Case> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(stream(effects, regime));
+    for _ in 0..MOST_DRAWS {
+        let spec = bare(effects, regime, &mut random);
+        let noise = Noise {
+            position: random.random_range(0.001..0.005),
+            orientation: random.random_range(0.005..0.03),
+        };
+        if let Some(simulation) = with_effects(spec, effects, noise, &mut random) {
+            return case(&simulation, noise, random.next_u64());
+        }
+    }
+    let problem = format!("no scene shows {} by seed {seed}", effects.join("+"));
+    Err(Error::new(ErrorKind::Invalid, problem).mend("leave one of them out"))
+}
+
+/// Each kind draws numbers of its own.
+fn stream(effects: &[&str], regime: Regime) -> u64 {
+    let letters = effects.iter().flat_map(|name| name.bytes());
+    letters.fold(regime as u64, |sum, byte| sum.wrapping_mul(257).wrapping_add(byte.into()))
+}
+
+/// A collision without effects and noise, seen as often as the regime says.
+fn bare(effects: &[&str], regime: Regime, random: &mut ChaCha8Rng) -> SimulationSpec {
+    let needs_pair = effects.iter().any(|name| matches!(*name, "time_offset" | "depth_scale"));
+    let needs_floor = effects.contains(&"friction");
+    let is_pair = needs_pair || (!needs_floor && random.random_bool(0.7));
+    let needs_box = effects.contains(&"inertia");
+    let is_box = needs_box || random.random_bool(0.6);
+    let draw = match (is_pair, is_box) {
+        (true, true) => SimulationSpec::random_cuboids,
+        (true, false) => SimulationSpec::random_balls,
+        (false, true) => SimulationSpec::random_box_drop,
+        (false, false) => SimulationSpec::random_ball_drop,
+    };
+    let mut spec = draw(random.next_u64());
+    for body in spec.bodies.iter_mut().filter(|body| body.shape.is_some()) {
+        body.measure_orientation = None;
+    }
+    spec.observations = sampling(&spec, regime, random);
+    let far_m = random.random_range(3.0..6.0);
+    let direction = crate::strength::direction(random);
+    spec.camera =
+        Some(Camera { position: (far_m * direction).into(), more: serde_json::Map::new() });
+    spec
+}
+
+/// So many poses on each side, nearest the collision.
+fn sampling(spec: &SimulationSpec, regime: Regime, random: &mut ChaCha8Rng) -> Sampling {
+    let (interval, poses) = match regime {
+        Regime::Dense => (1, 30),
+        Regime::Medium => (random.random_range(3..=4), 10),
+        Regime::Sparse => (random.random_range(7..=9), 4),
+    };
+    let regular = RegularSampling { interval, frame_count: 90, gap: Some(interval) };
+    let collision_frame = spec.collision.time * spec.fps.unwrap_or(60.0);
+    let farthest = f64::from(interval * poses);
+    let frames = regular.frame_numbers(collision_frame).into_iter().map(f64::from);
+    Sampling::Frames(frames.filter(|frame| (frame - collision_frame).abs() < farthest).collect())
+}
+
+/// The exact scene with all effects, each strong enough to be found alone, and not found without.
+fn with_effects(
+    spec: SimulationSpec,
+    effects: &[&str],
+    noise: Noise,
+    random: &mut ChaCha8Rng,
+) -> Option<Simulation> {
+    let base = simulate(&spec).ok()?;
+    let mut all = spec.clone();
+    for name in effects {
+        let body = acted_on(name, &base, random);
+        let hidden = Hidden::draw(name, body, &base, random);
+        let wanted = random.random_range(LEAST_LAMBDA.ln()..LARGEST_LAMBDA.ln()).exp();
+        let size = size_for(wanted, &spec, &hidden, noise)?;
+        all = hidden.put_in(all, size);
+    }
+    simulate(&all).ok()
+}
+
+/// How large the effect must be for a base fit to miss the exact poses by about `wanted`.
+fn size_for(wanted: f64, spec: &SimulationSpec, hidden: &Hidden, noise: Noise) -> Option<f64> {
+    let lambda_at = |size: f64| {
+        let simulation = simulate(&hidden.put_in(spec.clone(), size)).ok()?;
+        lambda(simulation.scene_file, noise)
+    };
+    let first = lambda_at(1.0)?;
+    if hidden.largest == 1.0 {
+        return (first >= LEAST_LAMBDA).then_some(1.0);
+    }
+    // χ² goes with the square of what is small.
+    let size = (wanted / first).sqrt().min(hidden.largest);
+    (lambda_at(size)? >= LEAST_LAMBDA).then_some(size)
+}
+
+/// χ² of the base model fitted to exact poses.
+fn lambda(mut exact: SceneFile, noise: Noise) -> Option<f64> {
+    exact.noise = Some(noise);
+    let scene = Scene::from_file(exact).ok()?;
+    smash::reconstruct(&scene, &Options::default()).ok()?.fit.chi2
+}
+
+fn case(simulation: &Simulation, noise: Noise, seed: u64) -> Result<Case> {
+    let noisy = add_noise(simulation.scene_file.clone(), &NoiseSpec::Gaussian(noise), seed);
+    let truth = &simulation.truth;
+    let labels = truth.effects.iter().map(|effect| match &effect.body {
+        Some(body) => format!("{}@{body}", effect.name),
+        None => effect.name.clone(),
+    });
+    Ok(Case {
+        scene: Scene::from_file(noisy)?,
+        effects: labels.collect(),
+        mass_ratio: truth.mass_ratio,
+        restitution: truth.restitution,
+    })
+}
