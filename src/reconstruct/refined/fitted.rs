@@ -2,12 +2,13 @@
 //! ended.
 
 use std::ops::Range;
+use std::time::Instant;
 
 use super::acting::{Acting, Instance};
 use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
 use super::noise::{KnownNoise, LEAST_NOISE, positions, settle_noise, turns};
-use super::optimum::{Optimum, optima_from};
+use super::optimum::{Optimum, evaluated, optima_from};
 use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
 use super::solve::{Solved, solve};
@@ -51,6 +52,7 @@ impl Fitted {
     /// # Errors
     /// No start leads to a solution.
     pub(crate) fn with(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
+        let started = Instant::now();
         let mut refined = self.refined.clone();
         let acting = instance.act_on(&mut refined);
         let starts = starts(self, scene, &refined, &acting)?;
@@ -58,7 +60,25 @@ impl Fitted {
         let mut fitted = Fitted { refined, optima, ..self.clone() };
         fitted.acting.push(acting);
         fitted.settle()?;
+        let cost_initial = self.cost_with_poses_of(&fitted)?;
+        let best = &fitted.best().solution;
+        let phase = PhaseReport {
+            name: format!("{} {}", self.phases.len() + 1, instance.label(scene)),
+            cost_initial,
+            cost_final: best.cost,
+            iterations: best.iterations,
+            seconds: Some(started.elapsed().as_secs_f64()),
+        };
+        fitted.phases.push(phase);
         Ok(fitted)
+    }
+
+    /// The cost of this fit at the noise of another, so that the two can be compared.
+    fn cost_with_poses_of(&self, other: &Fitted) -> Result<f64> {
+        let refined =
+            RefinedScene { bodies: other.refined.bodies.clone(), ..self.refined.clone() };
+        let best = self.best();
+        Ok(evaluated(&refined, &best.solution.unknowns, best.gap)?.cost)
     }
 
     /// Refitted to other noise or other poses, from where it is.
