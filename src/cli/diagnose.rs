@@ -69,8 +69,9 @@ fn in_words(diagnosis: &Diagnosis) -> String {
 
 fn write_words(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
     writeln!(out, "{}\n", diagnosis.explanation)?;
-    let mut rows =
-        vec![["candidate", "probability", "p-value", "Δχ²", "held out, mm"].map(String::from).to_vec()];
+    let mut rows = vec![
+        ["candidate", "probability", "p-value", "Δχ²", "held out, mm"].map(String::from).to_vec(),
+    ];
     rows.extend(diagnosis.candidates.iter().map(row));
     writeln!(out, "{}", aligned(&rows))?;
     writeln!(

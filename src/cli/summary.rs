@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use smash::files::Output;
 use smash::reconstruct::{
-    ActiveEffect, Alternative, BodyResult, Estimate, NoiseReport, Outlier, ParameterEstimate, Preset,
-    Reconstruction, SegmentCriterion,
+    ActiveEffect, Alternative, BodyResult, Estimate, NoiseReport, Outlier, ParameterEstimate,
+    Preset, Reconstruction, SegmentCriterion,
 };
 
 use super::table::decimals;

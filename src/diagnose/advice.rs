@@ -8,8 +8,11 @@ use crate::reconstruct::refined::Fitted;
 /// The advice that goes with a diagnosis.
 pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> Vec<String> {
     let mut advice = Vec::new();
-    let known: String =
-        fitted.acting.iter().map(|acting| format!(" --with {}", acting.instance.label(scene))).collect();
+    let known: String = fitted
+        .acting
+        .iter()
+        .map(|acting| format!(" --with {}", acting.instance.label(scene)))
+        .collect();
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::Missing, Some(best)) => {
             let alike: Vec<&str> = best
@@ -51,7 +54,8 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
                 );
             }
             advice.push(
-                "weak effects show in several throws together: smash diagnose SCENE SCENE …".to_string(),
+                "weak effects show in several throws together: smash diagnose SCENE SCENE …"
+                    .to_string(),
             );
         }
     }

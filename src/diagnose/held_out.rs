@@ -45,8 +45,10 @@ impl Tangent {
         for block in &self.blocks {
             let rows: Vec<usize> = block.iter().map(|row| row.index).collect();
             let jacobian = self.linearised.jacobian.select_rows(&rows);
-            let residuals =
-                DVector::from_iterator(rows.len(), rows.iter().map(|&i| self.linearised.residuals[i]));
+            let residuals = DVector::from_iterator(
+                rows.len(),
+                rows.iter().map(|&i| self.linearised.residuals[i]),
+            );
             let predicted = predicted(&jacobian, &self.inverse, &residuals);
             for (row, residual) in block.iter().zip(predicted.iter()) {
                 if let Some(std_m) = row.position_std_m {

@@ -94,11 +94,8 @@ fn second(scene: &Scene, candidates: &[Candidate], instances: &[Instance]) -> Op
         let seconds = tried(scene, &first.fitted, instances);
         let Some(second) = seconds.iter().find(|second| second.stands_out()) else { continue };
         let explains = rest(scene, second).is_ok_and(|rest| !rest.is_structured);
-        let label = format!(
-            "{} and {}",
-            first.instance().label(scene),
-            second.instance().label(scene)
-        );
+        let label =
+            format!("{} and {}", first.instance().label(scene), second.instance().label(scene));
         pairs.push((first.bic + second.bic, label, explains));
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -85,10 +85,8 @@ fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -
         );
     }
     if !best.indistinguishable_from.is_empty() {
-        text += &format!(
-            " These poses can't tell it from {}.",
-            listed(&best.indistinguishable_from)
-        );
+        text +=
+            &format!(" These poses can't tell it from {}.", listed(&best.indistinguishable_from));
     }
     match (pair, stays_structured) {
         (Some(pair), _) => {

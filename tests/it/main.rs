@@ -24,3 +24,4 @@ mod scenes;
 mod schema;
 mod simulate;
 mod simulate_command;
+mod with;

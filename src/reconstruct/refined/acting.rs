@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::bridge::refined::ffi::{ActingLaw, LawInstruction, ParameterRule, RefinedScene};
-use crate::effect::{Effect, EffectRequest, Hook, INPUTS, Need, Program, Scan, Scope};
+use crate::effect::{Effect, EffectRequest, Hook, INPUTS, Need, Parameter, Program, Scan, Scope};
 use crate::reconstruct::{ActiveEffect, Number};
 use crate::words::{did_you_mean, quoted};
 use crate::{Error, Result, Scene};
@@ -79,6 +79,12 @@ impl Instance {
     /// Whether it is of a single pose or a moment of its own: it may be there more than once.
     pub(crate) fn is_of_a_moment(&self) -> bool {
         self.is_of_a_pose() || self.effect.laws.iter().any(|(hook, _)| *hook == Hook::EventTime)
+    }
+
+    /// Whether all parameters are known, and do nothing.
+    pub(crate) fn is_held_at_null(&self) -> bool {
+        let held = |p: &Parameter| self.fixed.get(&p.name) == Some(&p.null);
+        self.effect.parameters.iter().all(held)
     }
 
     /// The index of the bodies that it acts on.

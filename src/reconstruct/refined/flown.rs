@@ -71,8 +71,7 @@ fn model(scene: &Scene, result: &Reconstruction) -> Result<(RefinedScene, Vec<f6
     refined.gravity_m_s2 = result.gravity.map_or(refined.gravity_m_s2, |g| Vector3::from(g).norm());
     let mut parameters = Vec::new();
     for (index, active) in result.effects.iter().enumerate() {
-        let (instance, values) =
-            Instance::of_result(scene, active, &format!("effects[{index}]"))?;
+        let (instance, values) = Instance::of_result(scene, active, &format!("effects[{index}]"))?;
         instance.act_on(&mut refined);
         parameters.extend(values);
     }

@@ -32,9 +32,7 @@ pub(super) fn parameter_names(fitted: &Fitted) -> Vec<String> {
         effect.parameters.iter().map(move |parameter| (index, parameter))
     });
     parameters
-        .flat_map(|(index, parameter)| {
-            scalar_names(index, &parameter.name, parameter.null.len())
-        })
+        .flat_map(|(index, parameter)| scalar_names(index, &parameter.name, parameter.null.len()))
         .collect()
 }
 
