@@ -93,8 +93,9 @@ struct Course {
         flight(launch.laws, GravityOf(scene).Acceleration(numbers.tilt.data()),
                launch.inertia_per_mass, effects.body.has_spin, is_after, launch.after,
                numbers.scalars[0]) {
-    step_s = std::min(
-        kStepS, kStepRad / FastestSpin(launch.inertia_per_mass, launch.after.q, launch.after.l));
+    step_s = kStepRad / FastestSpin(launch.inertia_per_mass, launch.after.q, launch.after.l);
+    // Parabolas are exact however long the steps.
+    if (launch.laws.HasForces()) step_s = std::min(kStepS, step_s);
     reached_s = numbers.scalars[0];
   }
 

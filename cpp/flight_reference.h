@@ -1,5 +1,5 @@
-// What the tests call: the hand-made derivatives of FlightCost beside automatic ones. No program
-// refers to it, so that the linker leaves it out.
+// What the tests call: derivatives made in one way beside those made in another. No program refers
+// to it, so that the linker leaves it out.
 #pragma once
 
 #include "rust/cxx.h"
@@ -9,6 +9,10 @@ namespace smash {
 
 struct FlightDifference;
 
+// The hand-made derivatives of FlightCost beside automatic ones.
 FlightDifference compare_flights(const RefinedScene& scene, const RefinedProblem& problem);
+
+// The automatic derivatives of EffectFlight beside central differences.
+FlightDifference difference_effects(const RefinedScene& scene, const RefinedProblem& problem);
 
 }  // namespace smash

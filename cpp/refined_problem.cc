@@ -26,8 +26,7 @@ namespace {
 constexpr double kLargestStepRad = 0.12;
 
 // Of an effect's flight, whose position needs steps too: with these the integrator's error is some
-// 1e-6 rad and less.
-constexpr double kEffectStepRad = 0.25;
+// 1e-7 rad and less.
 constexpr double kEffectStepS = 0.02;
 // An integrator's error larger than this share of a deviation could be taken for physics.
 constexpr double kLargestError = 0.02;
@@ -181,7 +180,7 @@ class RefinedFit {
 
   std::vector<int> EffectSteps(const Flight& flight, int fineness) const {
     const double fastest = FastestSpin(flight.body, flight.is_after, problem_.start);
-    const double step_s = std::min(kEffectStepRad / fastest, kEffectStepS) / fineness;
+    const double step_s = std::min(kLargestStepRad / fastest, kEffectStepS) / fineness;
     std::vector<int> steps;
     double reached_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
     for (const FlightPose& pose : flight.poses) {
@@ -339,13 +338,10 @@ RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& pr
   }
 }
 
-void VisitFlights(
-    const RefinedScene& scene, const RefinedProblem& problem,
-    const std::function<void(const FlightCost&, const std::vector<double*>&)>& visit) {
+void VisitFlights(const RefinedScene& scene, const RefinedProblem& problem,
+                  const std::function<void(const Flight&)>& visit) {
   RefinedFit fit(scene, problem, 1);
-  for (const Flight& flight : fit.flights()) {
-    visit(dynamic_cast<const FlightCost&>(*flight.cost), ValuesOf(flight.blocks));
-  }
+  for (const Flight& flight : fit.flights()) visit(flight);
 }
 
 }  // namespace smash

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "refined_blocks.h"
+#include "refined_summary.h"
 #include "smash/src/bridge/refined.rs.h"
 
 namespace smash {
@@ -13,9 +13,9 @@ namespace smash {
 // when no usable solution is found.
 RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& problem);
 
-// Calls `visit` with each flight of the problem and its blocks' numbers at the start.
+// Calls `visit` with each flight of the problem, its blocks at the start.
 void VisitFlights(const RefinedScene& scene, const RefinedProblem& problem,
-                  const std::function<void(const FlightCost&, const std::vector<double*>&)>& visit);
+                  const std::function<void(const Flight&)>& visit);
 
 // rad/s, at the most, of a free rotation.
 double FastestSpin(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,

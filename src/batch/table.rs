@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::inputs::Input;
 use crate::Error;
-use crate::reconstruct::{Flag, Reconstruction};
+use crate::reconstruct::{ActiveEffect, Flag, Number, ParameterEstimate, Reconstruction};
 
 /// A scene's row; its fields are the columns. SI units; `None` (an empty cell, null) where there is
 /// no number, for which the result gives the reason.
@@ -35,6 +35,9 @@ pub struct Row {
     pub orientation_rmse: Option<f64>,
     /// χ² a degree of freedom.
     pub reduced_chi2: Option<f64>,
+    /// Effects beyond the base model with their values, such as `quadratic_drag@a:k=0.14`: what
+    /// `--with` takes of a catalogue's.
+    pub effects: Vec<String>,
     /// What is doubtful.
     pub flags: Vec<Flag>,
     /// Why it failed, and what to do about it, on one line.
@@ -65,6 +68,7 @@ impl Row {
             position_rmse: Some(result.fit.position_rmse),
             orientation_rmse: result.fit.orientation_rmse,
             reduced_chi2: result.fit.reduced_chi2,
+            effects: result.effects.iter().map(with_values).collect(),
             flags: result.flags.clone(),
             ..Row::of(input)
         }
@@ -81,7 +85,18 @@ impl Row {
     }
 }
 
-/// The table with a header; flags are separated by spaces.
+fn with_values(effect: &ActiveEffect) -> String {
+    let value = |(name, estimate): (&String, &ParameterEstimate)| {
+        Some(match estimate.value? {
+            Number::Scalar(value) => format!("{name}={value}"),
+            Number::Vector([x, y, z]) => format!("{name}=[{x},{y},{z}]"),
+        })
+    };
+    let values: Vec<String> = effect.parameters.iter().filter_map(value).collect();
+    format!("{}:{}", effect.label(), values.join(","))
+}
+
+/// The table with a header; effects and flags are separated by spaces.
 pub(super) fn csv(rows: &[Row]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let write = |writer: &mut csv::Writer<Vec<u8>>, cells: Vec<String>| {

@@ -1,8 +1,8 @@
-//! The bridge that only tests use: hand-made derivatives beside automatic ones.
+//! The bridge that only tests use: derivatives made in one way beside those made in another.
 
 #[cxx::bridge(namespace = "smash")]
 pub(crate) mod ffi {
-    /// How far the flights of a problem are from their automatically differentiated reference.
+    /// How far the flights of a problem are from their reference.
     #[derive(Debug, Clone, Copy, PartialEq)]
     struct FlightDifference {
         flights: u32,
@@ -20,6 +20,12 @@ pub(crate) mod ffi {
 
         /// Compares all flights at the start of `problem`.
         fn compare_flights(
+            scene: &RefinedScene,
+            problem: &RefinedProblem,
+        ) -> Result<FlightDifference>;
+
+        /// The automatic derivatives of all flights with effects, beside central differences.
+        fn difference_effects(
             scene: &RefinedScene,
             problem: &RefinedProblem,
         ) -> Result<FlightDifference>;

@@ -4,9 +4,11 @@ use std::fmt::Write;
 
 use smash::files::Output;
 use smash::reconstruct::{
-    Alternative, BodyResult, Estimate, NoiseReport, Outlier, Preset, Reconstruction,
-    SegmentCriterion,
+    ActiveEffect, Alternative, BodyResult, Estimate, NoiseReport, Outlier, ParameterEstimate,
+    Preset, Reconstruction, SegmentCriterion,
 };
+
+use super::table::decimals;
 
 /// The summary that `smash reconstruct` prints.
 pub fn of(result: &Reconstruction, next: &[String], output: Option<&Output>) -> String {
@@ -57,6 +59,7 @@ fn write_summary(
     if let Some(noise) = &result.noise {
         writeln!(out, "  noise                {}", noise_words(noise, result.fit.reduced_chi2))?;
     }
+    write_effects(out, &result.effects)?;
     write_alternatives(out, &result.alternatives)?;
     write_outliers(out, &result.outliers)?;
     if result.flags.is_empty() {
@@ -91,13 +94,17 @@ fn number(estimate: &Estimate, unit: &str) -> String {
     };
     let reason = estimate.reason.as_ref().map_or(String::new(), |reason| format!("    ({reason})"));
     let Some(std) = estimate.std else { return format!("{value:.4}{unit}{reason}") };
-    // Two digits of the deviation, and no more of the value.
-    let digits = (1.0 - std.log10().floor()).clamp(0.0, 9.0) as usize;
+    let digits = digits_of(std);
     let mut text = format!("{value:.digits$} ± {std:.digits$}{unit}");
     if let Some([low, high]) = estimate.interval_95 {
         text += &format!("    95 %: {low:.digits$} to {high:.digits$}");
     }
     text + &reason
+}
+
+/// Two digits of the deviation, and no more of the value.
+fn digits_of(std: f64) -> usize {
+    (1.0 - std.log10().floor()).clamp(0.0, 9.0) as usize
 }
 
 fn noise_words(noise: &NoiseReport, reduced_chi2: Option<f64>) -> String {
@@ -111,6 +118,43 @@ fn noise_words(noise: &NoiseReport, reduced_chi2: Option<f64>) -> String {
         text += &format!("; the residuals are {:.2} times as large", reduced.sqrt());
     }
     text
+}
+
+/// Each effect, and below it a row for each parameter.
+fn write_effects(out: &mut String, effects: &[ActiveEffect]) -> std::fmt::Result {
+    if effects.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nEffects beyond the base model:")?;
+    for effect in effects {
+        writeln!(out, "  {}", effect.label())?;
+        for (name, estimate) in &effect.parameters {
+            writeln!(out, "    {name:18} {}", parameter(estimate))?;
+        }
+    }
+    Ok(())
+}
+
+/// Value, deviation and unit, or why one is missing.
+fn parameter(estimate: &ParameterEstimate) -> String {
+    let reason = estimate.reason.as_ref().map_or(String::new(), |reason| format!("    ({reason})"));
+    let Some(value) = &estimate.value else { return format!("not determined{reason}") };
+    let unit = match estimate.unit.as_str() {
+        "1" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let list = |numbers: &[String]| match numbers {
+        [single] => single.clone(),
+        all => format!("({})", all.join(", ")),
+    };
+    let Some(std) = &estimate.std else {
+        let shown: Vec<String> = value.components().iter().map(|v| decimals(*v, 4)).collect();
+        return format!("{}{unit}{reason}", list(&shown));
+    };
+    let pairs = value.components().iter().zip(std.components());
+    let shown = pairs.map(|(value, std)| [*value, *std].map(|x| decimals(x, digits_of(*std))));
+    let (values, stds): (Vec<String>, Vec<String>) = shown.map(|[value, std]| (value, std)).unzip();
+    format!("{} ± {}{unit}{reason}", list(&values), list(&stds))
 }
 
 fn write_alternatives(out: &mut String, alternatives: &[Alternative]) -> std::fmt::Result {

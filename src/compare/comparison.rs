@@ -42,7 +42,7 @@ pub struct ComparedNoise {
 }
 
 /// What a result's own motion leaves of the poses. It is computed from the numbers in the file: a
-/// parabola and a free rotation on each side of the collision.
+/// flight on each side of the collision, with the result's effects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ResultResiduals {
     /// The result's name.

@@ -4,7 +4,7 @@ use crate::scene::Scene;
 use crate::words::{listed, quoted};
 use crate::{Error, Reconstruction, Result};
 
-/// Refuses a result that can't be of `scene`, or whose motion isn't the base model's.
+/// Refuses a result that can't be of `scene`.
 pub(super) fn check(scene: &Scene, result: &Reconstruction) -> Result<()> {
     let of_scene: Vec<&str> = scene.bodies().iter().map(|body| body.name.as_str()).collect();
     let of_result: Vec<&str> = result.bodies.iter().map(|body| body.name.as_str()).collect();
@@ -15,10 +15,6 @@ pub(super) fn check(scene: &Scene, result: &Reconstruction) -> Result<()> {
         };
         return Err(Error::invalid("bodies", problem)
             .mend("name the scene that this result was made from, or reconstruct it again"));
-    }
-    if let Some(effect) = result.effects.first() {
-        let problem = format!("{} is beyond the base model", quoted(&effect.name));
-        return Err(Error::invalid("effects[0]", problem).mend("compare results without effects"));
     }
     let times = || scene.bodies().iter().flat_map(|body| &body.observations).map(|o| o.time_s);
     let first = times().fold(f64::INFINITY, f64::min);

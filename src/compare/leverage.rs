@@ -8,8 +8,9 @@
 use nalgebra::{DMatrix, SymmetricEigen, UnitQuaternion, Vector3};
 
 use super::Channel;
-use super::flight::{Prediction, predictions};
-use crate::reconstruct::Uncertainty;
+use super::flight::{Prediction, first_after, predictions};
+use crate::reconstruct::active_effect::scalar_names;
+use crate::reconstruct::{Number, Uncertainty};
 use crate::rigid_body::quaternion::{from_wxyz, to_wxyz};
 use crate::scene::Gap;
 use crate::{Reconstruction, Result, Scene};
@@ -28,8 +29,8 @@ pub(super) struct Leverage {
 }
 
 /// What is stepped at once: a number of the body's state, or one before and one after, since either
-/// moves its own side of the collision alone.
-#[derive(Clone, Copy)]
+/// moves its own side of the collision alone; or a scalar of an effect's parameter.
+#[derive(Clone)]
 enum Step {
     CollisionTime,
     Gravity(usize),
@@ -37,6 +38,7 @@ enum Step {
     Orientation(usize),
     Velocities(usize),
     Omegas(usize),
+    Parameter { effect: usize, name: String, scalar: usize, count: usize },
 }
 
 impl Leverage {
@@ -48,7 +50,7 @@ impl Leverage {
         let (Some(table), Some(base)) = (&result.uncertainty, predictions(scene, result)?) else {
             return Ok(None);
         };
-        let steps = steps();
+        let steps = steps(result);
         let std = |step: &Step, body: &str| {
             let names = step.names(body);
             let stds = names.iter().filter_map(|name| table.std[place(table, name)?]);
@@ -65,7 +67,7 @@ impl Leverage {
             // All bodies at once: none's flight goes with another's state.
             let beside = predictions(scene, &step.taken(result, length))?.unwrap_or_default();
             for (body, (base, beside)) in base.iter().zip(&beside).enumerate() {
-                let split = first_after(scene, body, result);
+                let split = first_after(base);
                 let column =
                     |pose: usize| 2 * index + usize::from(step.has_sides() && pose >= split);
                 put_slopes(&mut slopes[body], column, base, beside, length);
@@ -93,11 +95,6 @@ fn place(table: &Uncertainty, name: &str) -> Option<usize> {
     table.quantities.iter().position(|known| known == name)
 }
 
-fn first_after(scene: &Scene, body: usize, result: &Reconstruction) -> usize {
-    let time_s = result.collision_time.value.unwrap_or(f64::INFINITY);
-    scene.bodies()[body].observations.partition_point(|pose| pose.time_s < time_s)
-}
-
 /// Whether the collision time is well within its segment.
 fn is_free(scene: &Scene, result: &Reconstruction) -> bool {
     let (Some(time_s), Some(std_s)) = (result.collision_time.value, result.collision_time.std)
@@ -108,18 +105,34 @@ fn is_free(scene: &Scene, result: &Reconstruction) -> bool {
     scene.gaps().iter().any(within)
 }
 
-fn steps() -> Vec<Step> {
+fn steps(result: &Reconstruction) -> Vec<Step> {
     let vectors =
         [Step::Gravity, Step::Position, Step::Orientation, Step::Velocities, Step::Omegas];
     let axes = vectors.into_iter().flat_map(|vector| (0..3).map(vector));
-    std::iter::once(Step::CollisionTime).chain(axes).collect()
+    std::iter::once(Step::CollisionTime).chain(axes).chain(parameters(result)).collect()
+}
+
+fn parameters(result: &Reconstruction) -> Vec<Step> {
+    let mut steps = Vec::new();
+    for (effect, active) in result.effects.iter().enumerate() {
+        for (name, estimate) in &active.parameters {
+            let count = estimate.value.as_ref().map_or(0, |value| value.components().len());
+            steps.extend((0..count).map(|scalar| Step::Parameter {
+                effect,
+                name: name.clone(),
+                scalar,
+                count,
+            }));
+        }
+    }
+    steps
 }
 
 impl Step {
     /// Of the numbers that are stepped, as [`Reconstruction::uncertainty`] has them.
-    fn names(self, body: &str) -> Vec<String> {
+    fn names(&self, body: &str) -> Vec<String> {
         let of = |vector: &str, at: usize| format!("{body}.{vector}.{}", ["x", "y", "z"][at]);
-        match self {
+        match *self {
             Step::CollisionTime => vec!["collision_time".into()],
             Step::Gravity(at) => vec![format!("gravity.{}", ["x", "y", "z"][at])],
             Step::Position(at) => vec![of("position", at)],
@@ -128,26 +141,40 @@ impl Step {
             Step::Omegas(at) => {
                 vec![of("angular_velocity_before", at), of("angular_velocity_after", at)]
             }
+            Step::Parameter { effect, ref name, scalar, count } => {
+                vec![scalar_names(effect, name, count).swap_remove(scalar)]
+            }
         }
     }
 
     /// Whether there is a number for each side.
-    fn has_sides(self) -> bool {
+    fn has_sides(&self) -> bool {
         matches!(self, Step::Velocities(_) | Step::Omegas(_))
     }
 
     /// `result` with these numbers of each body a `length` further.
-    fn taken(self, result: &Reconstruction, length: f64) -> Reconstruction {
+    fn taken(&self, result: &Reconstruction, length: f64) -> Reconstruction {
         let mut beside = result.clone();
-        if let Step::CollisionTime = self {
-            beside.collision_time.value = beside.collision_time.value.map(|time| time + length);
+        match self {
+            Step::CollisionTime => {
+                beside.collision_time.value = beside.collision_time.value.map(|time| time + length);
+            }
+            Step::Parameter { effect, name, scalar, .. } => {
+                let estimate = beside.effects[*effect].parameters.get_mut(name);
+                match estimate.and_then(|estimate| estimate.value.as_mut()) {
+                    Some(Number::Scalar(value)) => *value += length,
+                    Some(Number::Vector(values)) => values[*scalar] += length,
+                    None => {}
+                }
+            }
+            _ => {}
         }
-        if let (Step::Gravity(at), Some(gravity)) = (self, &mut beside.gravity) {
+        if let (&Step::Gravity(at), Some(gravity)) = (self, &mut beside.gravity) {
             gravity[at] += length;
         }
         for body in &mut beside.bodies {
-            match self {
-                Step::CollisionTime | Step::Gravity(_) => {}
+            match *self {
+                Step::CollisionTime | Step::Gravity(_) | Step::Parameter { .. } => {}
                 Step::Position(at) => body.position[at] += length,
                 Step::Orientation(at) => {
                     let turn = UnitQuaternion::new(Vector3::ith(at, length));

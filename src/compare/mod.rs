@@ -38,7 +38,7 @@ use crate::{Reconstruction, Result, Scene};
 /// first.
 ///
 /// # Errors
-/// A result is of another scene, has effects beyond the base model, or spins too fast to be
+/// A result is of another scene, has effects that the scene can't show, or spins too fast to be
 /// followed; the message names it.
 ///
 /// # Example

@@ -5,7 +5,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::channels::channels_of;
 use super::findings::findings;
-use super::flight::{PredictedRotation, Prediction, predictions};
+use super::flight::{PredictedRotation, Prediction, first_after, predictions};
 use super::ledger::ledger;
 use super::yardstick::{Yardsticks, outliers};
 use super::{Channel, ChannelResidual, ComparedNoise, LargestMiss, ResultResiduals, Segment};
@@ -50,13 +50,10 @@ pub(super) fn sides<'a>(
     scene: &'a Scene,
     result: &Reconstruction,
 ) -> Result<Option<Vec<Side<'a>>>> {
-    let predictions = predictions(scene, result)?;
-    let Some((predictions, time_s)) = predictions.zip(result.collision_time.value) else {
-        return Ok(None);
-    };
+    let Some(predictions) = predictions(scene, result)? else { return Ok(None) };
     let mut sides = Vec::new();
     for (body_index, (body, predictions)) in scene.bodies().iter().zip(&predictions).enumerate() {
-        let split = body.observations.partition_point(|pose| pose.time_s < time_s);
+        let split = first_after(predictions);
         let all = body
             .observations
             .iter()

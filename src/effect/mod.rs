@@ -43,7 +43,7 @@ pub use unit::{Dimension, Unit};
 
 /// A law with its parameters, and what people should know of it.
 ///
-/// As JSON it has the form of its file.
+/// As JSON it has the form of its file, and can be read from it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
     /// One word.

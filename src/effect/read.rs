@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
 use super::file::EffectFile;
 use super::law::{law, names_in};
 use super::parameters::{check_name, known_parameters, parameter};
@@ -41,11 +44,13 @@ impl Effect {
             return Err(error.mend("an effect is a page of text"));
         }
         let file = decode_toml(text, origin)?;
-        let effect = Effect::from_file(file).and_then(|effect| {
-            try_out(&effect)?;
-            Ok(effect)
-        });
-        effect.map_err(|error| error.in_file(origin))
+        Effect::checked(file).map_err(|error| error.in_file(origin))
+    }
+
+    fn checked(file: EffectFile) -> Result<Effect> {
+        let effect = Effect::from_file(file)?;
+        try_out(&effect)?;
+        Ok(effect)
     }
 
     fn from_file(file: EffectFile) -> Result<Effect> {
@@ -86,6 +91,16 @@ impl Effect {
             sources: sources.into_iter().collect(),
             help: file.help,
         })
+    }
+}
+
+/// From the form of its file, as [`Effect`] serialises; checked like a file.
+impl<'de> Deserialize<'de> for Effect {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Effect, D::Error> {
+        let file = EffectFile::deserialize(deserializer)?;
+        // The reader takes what follows a semicolon for the mend.
+        let in_words = |error: Error| error.to_string().replace("\n  hint: ", "; ");
+        Effect::checked(file).map_err(|error| D::Error::custom(in_words(error)))
     }
 }
 

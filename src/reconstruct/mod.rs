@@ -3,6 +3,7 @@
 //! The presets share what they are given and what they answer: [`Scene`] in, [`Reconstruction`]
 //! out; each has its own room.
 
+pub(crate) mod active_effect;
 mod collision;
 mod flags;
 mod options;
@@ -13,12 +14,13 @@ pub(crate) mod refined;
 mod result;
 mod scatter;
 
+pub use active_effect::{ActiveEffect, Number, ParameterEstimate};
 pub use flags::Flag;
 pub use options::{Intervals, Loss, Options, PaperOptions, RefinedOptions, SegmentCriterion};
 pub use progress::{Progress, Stage};
 pub use result::{
-    ActiveEffect, Alternative, BodyResult, Estimate, Fit, NoiseReport, Number, Outlier,
-    ParameterEstimate, PhaseReport, Preset, RESULT_SCHEMA, Reconstruction, Uncertainty,
+    Alternative, BodyResult, Estimate, Fit, NoiseReport, Outlier, PhaseReport, Preset,
+    RESULT_SCHEMA, Reconstruction, Uncertainty,
 };
 
 use crate::{Error, ErrorKind, Result, Scene};

@@ -3,9 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use std::collections::BTreeMap;
-
-use super::{Flag, Intervals, SegmentCriterion};
+use super::{ActiveEffect, Flag, Intervals, SegmentCriterion};
 
 /// The value of a result file's field `schema`.
 pub const RESULT_SCHEMA: &str = "smash.result/1";
@@ -148,7 +146,8 @@ pub struct Outlier {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Uncertainty {
     /// Names such as `mass_ratio`, `impulse.x` or, after a body's name, `a.velocity_after.x`. An
-    /// orientation's three are turns about the world's axes, in rad.
+    /// orientation's three are turns about the world's axes, in rad. The parameters of the first
+    /// effect are `effects[0].k`, or `effects[0].a.x`.
     pub quantities: Vec<String>,
     /// One standard deviation of each, in the unit of the quantity; null where the poses don't
     /// determine it.
@@ -156,60 +155,6 @@ pub struct Uncertainty {
     /// Row by row the correlation of each quantity with all up to itself; null where either is not
     /// determined or can't vary.
     pub correlation: Vec<Vec<Option<f64>>>,
-}
-
-/// An effect beyond the base model, with its parameters. The `paper` preset has none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ActiveEffect {
-    /// Its name in the catalogue, or in the user's file.
-    pub name: String,
-    /// The body that it acts on; null for all.
-    pub body: Option<String>,
-    /// Its parameters by name.
-    pub parameters: BTreeMap<String, ParameterEstimate>,
-}
-
-/// A parameter of an effect.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ParameterEstimate {
-    /// The estimate, of a vector its three components; null where the data don't determine it.
-    pub value: Option<Number>,
-    /// One standard deviation; null where it can't be computed.
-    pub std: Option<Number>,
-    /// Of the value.
-    pub unit: String,
-    /// Why `value` or `std` is null.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-}
-
-/// A scalar, or a vector.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "is no value of a parameter; write a number, or a list of three")]
-pub enum Number {
-    /// One number.
-    Scalar(f64),
-    /// Three components, in the world or in the body as the effect says.
-    Vector([f64; 3]),
-}
-
-impl Number {
-    /// The components.
-    pub fn components(&self) -> &[f64] {
-        match self {
-            Number::Scalar(value) => std::slice::from_ref(value),
-            Number::Vector(values) => values,
-        }
-    }
-}
-
-impl From<Vec<f64>> for Number {
-    fn from(values: Vec<f64>) -> Self {
-        match <[f64; 3]>::try_from(values.as_slice()) {
-            Ok(vector) => Number::Vector(vector),
-            Err(_) => Number::Scalar(values.first().copied().unwrap_or(f64::NAN)),
-        }
-    }
 }
 
 /// A body at the moment of the collision.
@@ -263,7 +208,8 @@ pub struct Fit {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PhaseReport {
     /// Of the paper `1 trajectories`, `2 impulse`, `3 contact point`; of the refined solver
-    /// `1 flights`, `2 impulse`, `3 everything`.
+    /// `1 flights`, `2 impulse`, `3 everything`, and then one for each effect, such as
+    /// `4 quadratic_drag@a`.
     pub name: String,
     /// The energy at its start.
     pub cost_initial: f64,

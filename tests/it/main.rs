@@ -27,3 +27,4 @@ mod schema;
 mod simulate;
 mod simulate_command;
 mod simulate_effects;
+mod with;

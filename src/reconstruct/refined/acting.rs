@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::bridge::refined::ffi::{ActingLaw, LawInstruction, ParameterRule, RefinedScene};
-use crate::effect::{Effect, EffectRequest, Hook, INPUTS, Need, Program, Scan, Scope};
+use crate::effect::{Effect, EffectRequest, Hook, INPUTS, Need, Parameter, Program, Scan, Scope};
+use crate::reconstruct::{ActiveEffect, Number};
 use crate::words::{did_you_mean, quoted};
 use crate::{Error, Result, Scene};
 
@@ -27,6 +28,41 @@ pub(crate) struct Acting {
 }
 
 impl Instance {
+    /// The one that stands in a result at `place`, and its parameters, scalar by scalar.
+    ///
+    /// # Errors
+    /// It can't be of this scene, or a value is missing.
+    pub(crate) fn of_result(
+        scene: &Scene,
+        active: &ActiveEffect,
+        place: &str,
+    ) -> Result<(Instance, Vec<f64>)> {
+        let mend = "name the scene that this result was made from, or reconstruct it again";
+        let effect = active.effect().map_err(|error| error.at(format!("{place}.name")))?;
+        if let Some(lacking) = lacking(scene, effect) {
+            return Err(Error::invalid(place, format!("this scene {lacking}")).mend(mend));
+        }
+        let names: Vec<&str> = scene.bodies().iter().map(|body| body.name.as_str()).collect();
+        let index = |name: &String| {
+            let found = names.iter().position(|known| known == name);
+            found.ok_or_else(|| no_body(&format!("{place}.body"), name, &names))
+        };
+        let body = active.body.as_ref().map(index).transpose()?;
+        let mut values = Vec::new();
+        for parameter in &effect.parameters {
+            let found = active.parameters.get(&parameter.name).and_then(|one| one.value.as_ref());
+            match found.map(Number::components) {
+                Some(numbers) if numbers.len() == parameter.null.len() => values.extend(numbers),
+                _ => {
+                    let place = format!("{place}.parameters.{}.value", parameter.name);
+                    let form = if parameter.null.len() == 3 { "three numbers" } else { "a number" };
+                    return Err(Error::invalid(place, format!("isn't {form}")).mend(mend));
+                }
+            }
+        }
+        Ok((Instance { effect: effect.clone(), body, fixed: BTreeMap::new() }, values))
+    }
+
     /// `NAME@BODY`, or `NAME` where it acts on all.
     pub(crate) fn label(&self, scene: &Scene) -> String {
         match self.body {
@@ -43,6 +79,12 @@ impl Instance {
     /// Whether it is of a single pose or a moment of its own: it may be there more than once.
     pub(crate) fn is_of_a_moment(&self) -> bool {
         self.is_of_a_pose() || self.effect.laws.iter().any(|(hook, _)| *hook == Hook::EventTime)
+    }
+
+    /// Whether all parameters are known, and do nothing.
+    pub(crate) fn is_held_at_null(&self) -> bool {
+        let held = |p: &Parameter| self.fixed.get(&p.name) == Some(&p.null);
+        self.effect.parameters.iter().all(held)
     }
 
     /// The index of the bodies that it acts on.
@@ -127,8 +169,7 @@ pub(crate) fn instances(scene: &Scene, request: &EffectRequest) -> Result<Vec<In
         (Scope::Scene | Scope::Contact, None) => Ok(vec![instance(None)]),
         (scope, Some(name)) => {
             let Some(index) = names.iter().position(|known| known == name) else {
-                let problem = format!("there is no dynamic body {}", quoted(name));
-                return Err(Error::invalid(&effect.name, problem).mend(did_you_mean(name, &names)));
+                return Err(no_body(&effect.name, name, &names));
             };
             match scope {
                 Scope::Body => Ok(vec![instance(Some(index))]),
@@ -141,6 +182,11 @@ pub(crate) fn instances(scene: &Scene, request: &EffectRequest) -> Result<Vec<In
             }
         }
     }
+}
+
+fn no_body(place: &str, name: &str, names: &[&str]) -> Error {
+    let problem = format!("there is no dynamic body {}", quoted(name));
+    Error::invalid(place, problem).mend(did_you_mean(name, names))
 }
 
 /// All instances of an effect that a scene can show: of each body, or of all.

@@ -2,16 +2,17 @@
 //! ended.
 
 use std::ops::Range;
+use std::time::Instant;
 
 use super::acting::{Acting, Instance};
 use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
 use super::noise::{KnownNoise, LEAST_NOISE, positions, settle_noise, turns};
-use super::optimum::{Optimum, optima_from};
+use super::optimum::{Optimum, evaluated, nested_optimum, optima_from};
 use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
 use super::solve::{Solved, solve};
-use super::starts::starts;
+use super::starts::{Start, starts};
 use crate::bridge::refined::ffi::RefinedScene;
 use crate::reconstruct::{Loss, PhaseReport};
 use crate::scene::Noise;
@@ -51,14 +52,60 @@ impl Fitted {
     /// # Errors
     /// No start leads to a solution.
     pub(crate) fn with(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
+        let found = self.extended(scene, instance);
+        found.map_err(|error| {
+            error.at(instance.label(scene)).mend(
+                "hold some of its parameters at known values (`:NAME=VALUE`), or leave it out; an \
+                 effect of your own may grow beyond all numbers along the flight",
+            )
+        })
+    }
+
+    fn extended(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
+        let started = Instant::now();
         let mut refined = self.refined.clone();
         let acting = instance.act_on(&mut refined);
         let starts = starts(self, scene, &refined, &acting)?;
-        let optima = optima_from(&refined, &starts)?;
+        let optima = match instance.is_held_at_null() {
+            true => vec![nested_optimum(&refined, &starts[0].0, self.best())?],
+            false => self.optima_with(instance, &refined, &starts)?,
+        };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
         fitted.acting.push(acting);
         fitted.settle()?;
+        let cost_initial = self.cost_with_poses_of(&fitted)?;
+        let best = &fitted.best().solution;
+        let phase = PhaseReport {
+            name: format!("{} {}", self.phases.len() + 1, instance.label(scene)),
+            cost_initial,
+            cost_final: best.cost,
+            iterations: best.iterations,
+            seconds: Some(started.elapsed().as_secs_f64()),
+        };
+        fitted.phases.push(phase);
         Ok(fitted)
+    }
+
+    /// What `starts` lead to, and, where the effect does nothing at the first, this fit itself.
+    fn optima_with(
+        &self,
+        instance: &Instance,
+        refined: &RefinedScene,
+        starts: &[Start],
+    ) -> Result<Vec<Optimum>> {
+        let mut optima = optima_from(refined, starts)?;
+        let rises = optima[0].solution.cost > self.best().solution.cost;
+        if rises && instance.fixed.is_empty() {
+            optima.insert(0, nested_optimum(refined, &starts[0].0, self.best())?);
+        }
+        Ok(optima)
+    }
+
+    /// The cost of this fit at the noise of another, so that the two can be compared.
+    fn cost_with_poses_of(&self, other: &Fitted) -> Result<f64> {
+        let refined = RefinedScene { bodies: other.refined.bodies.clone(), ..self.refined.clone() };
+        let best = self.best();
+        Ok(evaluated(&refined, &best.solution.unknowns, best.gap)?.cost)
     }
 
     /// Refitted to other noise or other poses, from where it is.

@@ -11,6 +11,7 @@ pub(crate) mod acting;
 mod alternatives;
 mod covariance;
 mod fitted;
+mod flown;
 mod gain;
 mod layout;
 pub(crate) mod model;
@@ -33,6 +34,7 @@ mod uncertainty;
 
 pub(crate) use self::acting::{Acting, Instance, instances, possible};
 pub(crate) use self::fitted::Fitted;
+pub(crate) use self::flown::{FlownPose, flown};
 pub(crate) use self::gain::{Linearised, gains, linearised};
 pub(crate) use self::report::reconstruction as report;
 pub(crate) use self::starts::{points, scanned};

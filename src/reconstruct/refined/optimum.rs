@@ -60,6 +60,25 @@ pub(super) fn optima_from(
     Ok(walked)
 }
 
+/// The optimum of a nested model as one of `scene`, where at `unknowns` it is the same model: cost
+/// and residuals are its own to the last digit, whatever integrators differ by.
+pub(super) fn nested_optimum(
+    scene: &RefinedScene,
+    unknowns: &RefinedUnknowns,
+    nested: &Optimum,
+) -> Result<Optimum> {
+    let known = nested.solution.clone();
+    let solution = RefinedSolution {
+        cost: known.cost,
+        converged: known.converged,
+        residuals: known.residuals,
+        jacobian: Vec::new(),
+        ..evaluated(scene, unknowns, nested.gap)?
+    };
+    let covariance = Covariance::new(&total_information(&solution));
+    Ok(Optimum { gap: nested.gap, covariance, solution })
+}
+
 /// On to the next segment, and the next, as long as the collision time ends at a bound and χ² falls.
 fn walked(scene: &RefinedScene, mut best: Optimum) -> Optimum {
     const MOST_STEPS: usize = 50;

@@ -5,7 +5,8 @@ use super::fitted::Fitted;
 use super::uncertainty::Deviations;
 use crate::Scene;
 use crate::bridge::refined::ffi::ParameterRule;
-use crate::effect::Parameter;
+use crate::effect::{Parameter, catalogue};
+use crate::reconstruct::active_effect::scalar_names;
 use crate::reconstruct::{ActiveEffect, Number, ParameterEstimate};
 
 const GIVEN: &str = "it was given";
@@ -20,6 +21,19 @@ pub(super) fn effects(
     deviations: &Deviations,
 ) -> Vec<ActiveEffect> {
     fitted.acting.iter().map(|acting| effect(scene, fitted, acting, deviations)).collect()
+}
+
+/// The names of all effects' scalars, as [`Reconstruction::uncertainty`] has them.
+///
+/// [`Reconstruction::uncertainty`]: crate::Reconstruction::uncertainty
+pub(super) fn parameter_names(fitted: &Fitted) -> Vec<String> {
+    let effects = fitted.acting.iter().map(|acting| &acting.instance.effect).enumerate();
+    let parameters = effects.flat_map(|(index, effect)| {
+        effect.parameters.iter().map(move |parameter| (index, parameter))
+    });
+    parameters
+        .flat_map(|(index, parameter)| scalar_names(index, &parameter.name, parameter.null.len()))
+        .collect()
 }
 
 fn effect(
@@ -45,6 +59,7 @@ fn effect(
         name: instance.effect.name.clone(),
         body: instance.body.map(|body| scene.bodies()[body].name.clone()),
         parameters,
+        definition: (!catalogue().contains(&instance.effect)).then(|| instance.effect.clone()),
     }
 }
 

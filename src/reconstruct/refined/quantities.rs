@@ -166,8 +166,9 @@ impl Collision {
     }
 }
 
-/// The derivatives of all reported numbers by the unknowns, by central differences a small part of
-/// each unknown's own deviation wide, where the functions are as good as linear.
+/// The derivatives of all reported numbers, and then of the effects' parameters, by the unknowns: by
+/// central differences a small part of each unknown's own deviation wide, where the functions are as
+/// good as linear.
 pub(super) fn derivatives(
     scene: &Scene,
     layout: &Layout,
@@ -179,7 +180,7 @@ pub(super) fn derivatives(
     let unknowns = &optimum.solution.unknowns;
     let base = collision(scene, refined, unknowns)?;
     let rows = base.flat(&base).len();
-    let mut derivatives = DMatrix::zeros(rows, layout.size);
+    let mut derivatives = DMatrix::zeros(rows + layout.parameters.len(), layout.size);
     for column in 0..layout.size {
         let std = optimum.covariance.matrix[(column, column)].sqrt();
         let length = (STEP * std).clamp(1e-7, 1e-3);
@@ -189,6 +190,11 @@ pub(super) fn derivatives(
         };
         for (row, (high, low)) in at(length)?.iter().zip(at(-length)?).enumerate() {
             derivatives[(row, column)] = (high - low) / (2.0 * length);
+        }
+    }
+    for (index, column) in layout.parameters.iter().enumerate() {
+        if let Some(column) = column {
+            derivatives[(rows + index, *column)] = 1.0;
         }
     }
     Ok(derivatives)

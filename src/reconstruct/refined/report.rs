@@ -4,7 +4,7 @@ use super::alternatives::alternatives;
 use super::fitted::Fitted;
 use super::layout::Layout;
 use super::noise::{KnownNoise, is_known, positions, turns};
-use super::parameters::effects;
+use super::parameters::{effects, parameter_names};
 use super::profile::{Held, Profile};
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
 use super::robust::outliers;
@@ -98,7 +98,8 @@ pub(crate) fn reconstruction(
         gravity: Some(collision.gravity.into()),
         effects: effects(scene, fitted, &deviations),
         noise: Some(noise_report(&has_spin, fitted.noise)),
-        uncertainty: all_noise_known(refined, fitted.noise).then(|| deviations.table(names(scene))),
+        uncertainty: all_noise_known(refined, fitted.noise)
+            .then(|| deviations.table([names(scene), parameter_names(fitted)].concat())),
         alternatives,
         outliers,
         intervals: Some(intervals),

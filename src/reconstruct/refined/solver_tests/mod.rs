@@ -1,6 +1,7 @@
 //! The C++ side of the refined solver: its derivatives, its curvature, and what it refuses.
 
 mod derivatives;
+mod effects;
 mod input;
 
 use nalgebra::{UnitQuaternion, Vector3};
