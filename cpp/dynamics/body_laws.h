@@ -68,6 +68,7 @@ class BodyLaws {
   }
 
   bool Has(Hook hook) const { return !runs_[static_cast<int>(hook)].empty(); }
+  bool HasForces() const { return Has(Hook::kAcceleration) || Has(Hook::kTorque); }
   // Whether the rotation isn't free, or the path depends on it.
   bool CouplesRotation() const {
     if (Has(Hook::kTorque)) return true;
