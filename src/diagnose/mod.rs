@@ -15,6 +15,7 @@ mod held_out;
 mod pooled;
 mod ranking;
 mod throws;
+mod unexplained;
 mod verdict;
 mod words;
 
@@ -22,6 +23,7 @@ pub use diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
 };
 pub use throws::diagnose_throws;
+pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use candidates::{Candidate, all_candidates};
 pub(crate) use evidence::evidence;
@@ -73,7 +75,7 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
     let mut candidates: Vec<Candidate> = promising
         .par_iter()
         .filter_map(|instance| {
-            let with = fitted.with(scene, instance).ok()?;
+            let with = fitted.with_quickly(scene, instance).ok()?;
             candidates::candidate(scene, fitted, with, instances.len(), before)
         })
         .collect();

@@ -1,6 +1,7 @@
 //! The answer in plain words.
 
 use super::diagnosis::{CandidateReport, Diagnosis, Verdict};
+use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
 use crate::words::significant;
 
@@ -17,7 +18,10 @@ pub(super) fn explanation(
     };
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::NothingMissing, best) => nothing(&model, diagnosis, best),
-        (Verdict::UnknownEffect, best) => unknown(&model, best.filter(|best| best.stands_out)),
+        (Verdict::UnknownEffect, best) => {
+            let left: String = diagnosis.unexplained.iter().map(leftover).collect();
+            unknown(&model, best.filter(|best| best.stands_out)) + &left
+        }
         (Verdict::Missing, Some(best)) => missing(best, pair, stays_structured),
         (Verdict::Missing, None) => String::new(),
     }
@@ -82,6 +86,23 @@ fn unknown(model: &str, best: Option<&CandidateReport>) -> String {
         None => " No effect of the catalogue explains it.".to_string(),
     };
     format!("{model} misses the poses by more than their noise.{tried}")
+}
+
+/// What is left over, in a sentence.
+fn leftover(one: &Unexplained) -> String {
+    let (what, unit) = match one.kind {
+        Kind::Acceleration => ("a further acceleration", "m/s²"),
+        Kind::Torque => ("a further torque per unit of its mass", "m²/s²"),
+    };
+    let best = one.forms.first().map_or(String::new(), |form| {
+        format!(
+            "; {} % of it goes with {}: try {}",
+            significant(100.0 * form.share, 2),
+            form.goes_with,
+            form.law
+        )
+    });
+    format!(" {} feels {what} of {} {unit} (rms){best}.", one.body, significant(one.rms, 2))
 }
 
 fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -> String {
