@@ -10,7 +10,8 @@ use smash::files::{Output, print_bytes};
 use smash::{Result, Scene, diagnose};
 
 use super::method::Method;
-use super::table::aligned;
+use super::table::{aligned, p_value, probability};
+use super::typed::Typed;
 
 /// Finds which physical effect the model lacks, ranked, with the evidence
 ///
@@ -41,8 +42,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());
     let further = requests(&arguments.further)?;
-    let diagnosis = diagnose(&scene, &arguments.method.refined()?, &further)
+    let mut diagnosis = diagnose(&scene, &arguments.method.refined()?, &further)
         .map_err(|error| error.in_file(arguments.scene.display().to_string()))?;
+    let typed = Typed::new(&arguments.scene, &arguments.method, &arguments.further)?;
+    for line in &mut diagnosis.advice {
+        *line = typed.completed(line);
+    }
     let json = diagnosis.to_json();
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
@@ -76,12 +81,12 @@ fn write_words(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
     writeln!(out, "{}", aligned(&rows))?;
     writeln!(
         out,
-        "nothing of these: {:.3}. Held out: how far poses are missed that the fit hasn't seen, \
-         without and with the effect.",
-        diagnosis.probability_of_nothing
+        "The probability that nothing is missing: {}. A p-value counts all candidates. Held out: how \
+         far\nthe fit misses positions that it hasn't seen, without and with the effect.",
+        probability(diagnosis.probability_of_nothing)
     )?;
     if !diagnosis.advice.is_empty() {
-        writeln!(out, "\nnext:")?;
+        writeln!(out, "\nNext")?;
     }
     for line in &diagnosis.advice {
         writeln!(out, "  {line}")?;
@@ -96,8 +101,8 @@ fn row(candidate: &CandidateReport) -> Vec<String> {
     };
     vec![
         candidate.label(),
-        format!("{:.3}", candidate.probability),
-        format!("{:.1e}", candidate.p_value),
+        probability(candidate.probability),
+        p_value(candidate.p_value),
         format!("{:.1}", candidate.delta_chi2),
         held_out,
     ]
