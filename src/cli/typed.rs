@@ -1,6 +1,6 @@
 //! What was typed, for the commands that a person may type next.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use smash::Result;
 use smash::effect::EffectRequest;
@@ -8,9 +8,9 @@ use smash::files::shell_word;
 
 use super::method::Method;
 
-/// A scene and its options, as they were typed.
+/// Scenes and options, as they were typed.
 pub struct Typed {
-    scene: String,
+    scenes: Vec<String>,
     options: String,
     /// Effects that the model has, and further candidates.
     effects: Vec<(EffectRequest, String)>,
@@ -21,11 +21,11 @@ impl Typed {
     ///
     /// # Errors
     /// An effect isn't one, or its file is faulty.
-    pub fn new(scene: &Path, method: &Method, further: &[String]) -> Result<Typed> {
+    pub fn new(scenes: &[PathBuf], method: &Method, further: &[String]) -> Result<Typed> {
         let effects = method.effects().iter().chain(further);
         let effects = effects.map(|text| Ok((EffectRequest::parse(text)?, text.clone())));
         Ok(Typed {
-            scene: shell_word(&scene.to_string_lossy()),
+            scenes: scenes.iter().map(|path| shell_word(&path.to_string_lossy())).collect(),
             options: method.flags(),
             effects: effects.collect::<Result<_>>()?,
         })
@@ -33,10 +33,18 @@ impl Typed {
 
     /// A line of advice with the scene's own path for SCENE, and effects as they were typed.
     pub fn completed(&self, line: &str) -> String {
-        let scene = format!("{}{}", self.scene, self.options);
+        let (one, options) = (self.scene(), &self.options);
+        let several = match self.scenes.as_slice() {
+            [one] => format!("{one} OTHER_SCENE …"),
+            all => all.join(" "),
+        };
         let line = line
-            .replace("compare SCENE", &format!("compare {}", self.scene))
-            .replace("SCENE", &scene);
+            .replace("SCENE SCENE …", &format!("{several}{options}"))
+            .replace("compare SCENE", &format!("compare {one}"))
+            .replace(" SCENE ", &format!(" {one}{options} "));
+        let line = line
+            .strip_suffix(" SCENE")
+            .map_or(line.clone(), |start| format!("{start} {one}{options}"));
         let mut words = line.split(' ');
         let mut completed: Vec<String> = words.next().map(String::from).into_iter().collect();
         for word in words {
@@ -51,7 +59,15 @@ impl Typed {
         let typed = method.effects().iter().map(|text| shell_word(text));
         let effects = typed.chain(labels.iter().map(|label| self.effect(label)));
         let with: String = effects.map(|effect| format!(" --with {effect}")).collect();
-        format!("smash reconstruct {}{}{with}", self.scene, self.options)
+        format!("smash reconstruct {}{}{with}", self.scene(), self.options)
+    }
+
+    /// The scene; of several any.
+    fn scene(&self) -> &str {
+        match self.scenes.as_slice() {
+            [scene] => scene,
+            _ => "SCENE",
+        }
     }
 
     /// What to type for the effect with this label: of a file its path, and values that are given.
