@@ -16,6 +16,7 @@ mod schema;
 mod simulate;
 mod summary;
 mod table;
+mod typed;
 
 use std::io::Write;
 use std::process::ExitCode;
