@@ -19,9 +19,10 @@ mod words;
 pub use diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 
 pub(crate) use candidates::{Candidate, all_candidates};
-pub(crate) use evidence::evidence;
+pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::held_out;
+pub(crate) use ranking::look_alikes;
 
 use rayon::prelude::*;
 
