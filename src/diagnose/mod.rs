@@ -26,10 +26,11 @@ pub use throws::diagnose_throws;
 pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use candidates::{Candidate, all_candidates};
-pub(crate) use evidence::evidence;
+pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::held_out;
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
+pub(crate) use ranking::look_alikes;
 pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 
 use rayon::prelude::*;
