@@ -26,7 +26,9 @@ pub(crate) struct PooledCandidate {
     pub(crate) label: String,
     /// As each throw has it; `None` where a throw can't show it.
     pub(crate) own: Vec<Option<Own>>,
-    /// θ̄.
+    /// Whether all throws have the same parameters; an impulse of a third party is each one's own.
+    pub(crate) is_shared: bool,
+    /// θ̄; empty where each throw has its own.
     pub(crate) values: Vec<f64>,
     /// Of θ̄, with the scatter; `None` where no throw tells it.
     pub(crate) stds: Vec<Option<f64>>,
@@ -59,9 +61,12 @@ impl PooledCandidate {
         self.p_value < FALSE_ALARM && self.bic < 0.0 && self.predicts
     }
 
-    /// The effect as a throw has it, with the values of all throws.
+    /// The effect as a throw has it: with the values of all throws, or free where each has its own.
     pub(crate) fn held(&self, throw: usize) -> Option<Instance> {
         let mut instance = self.own[throw].as_ref()?.instance.clone();
+        if !self.is_shared {
+            return Some(instance);
+        }
         let mut rest = self.values.as_slice();
         for parameter in &instance.effect.parameters {
             if instance.fixed.contains_key(&parameter.name) {
@@ -79,7 +84,7 @@ impl PooledCandidate {
 pub(crate) fn pooled(throws: &[Throw], instances: &[Vec<Instance>]) -> Vec<PooledCandidate> {
     let mut labels: Vec<String> = Vec::new();
     for (throw, own) in throws.iter().zip(instances) {
-        for instance in own.iter().filter(|instance| instance.is_of_all_throws()) {
+        for instance in own.iter().filter(|instance| !instance.is_of_a_moment()) {
             let label = instance.label(throw.scene);
             if !labels.contains(&label) {
                 labels.push(label);
@@ -103,7 +108,9 @@ pub(crate) fn pooled(throws: &[Throw], instances: &[Vec<Instance>]) -> Vec<Poole
 }
 
 fn own(throw: &Throw, instance: &Instance) -> Result<Option<Own>> {
-    let with = throw.fitted.with_quickly(throw.scene, &instance.clone().freely())?;
+    let free =
+        if instance.is_of_all_throws() { instance.clone().freely() } else { instance.clone() };
+    let with = throw.fitted.with_quickly(throw.scene, &free)?;
     let information = information_of_last(&with)?;
     let Some(acting) = with.acting.last() else { return Ok(None) };
     let range = acting.first..acting.first + acting.count;
@@ -131,6 +138,9 @@ fn candidate(
 ) -> Option<PooledCandidate> {
     let known: Vec<&Own> = own.iter().flatten().collect();
     let first = known.first()?;
+    if !first.instance.is_of_all_throws() {
+        return Some(each_its_own(throws, label, own, tried));
+    }
     let null = DVector::from_vec(free_null(&first.instance));
     let mean = mean(&known, None)?;
     let total = information(&known, None);
@@ -178,8 +188,37 @@ fn candidate(
         agreement: ChiSquared::new(spread).ok().map(|chi| chi.sf(q)),
         scatter: scatter2.sqrt(),
         predicts: known.len() < 2 || foretold > 0.0,
+        is_shared: true,
         own,
     })
+}
+
+/// An effect that every throw has with parameters of its own.
+fn each_its_own(
+    throws: &[Throw],
+    label: String,
+    own: Vec<Option<Own>>,
+    tried: usize,
+) -> PooledCandidate {
+    let known: Vec<&Own> = own.iter().flatten().collect();
+    let delta: f64 = known.iter().map(|own| own.gain).sum();
+    let parameters: usize = known.iter().map(|own| rank(&own.information)).sum();
+    let count = parameters as f64;
+    let numbers: f64 = throws.iter().map(|throw| throw.fitted.numbers()).sum();
+    PooledCandidate {
+        label,
+        is_shared: false,
+        values: Vec::new(),
+        stds: Vec::new(),
+        delta,
+        parameters,
+        p_value: (tried as f64 * significance(throws, &known, delta, count)).min(1.0),
+        bic: -delta + count * numbers.ln(),
+        agreement: None,
+        scatter: 1.0,
+        predicts: true,
+        own,
+    }
 }
 
 /// How often noise alone lets −2 ln L of all throws fall by `delta`.

@@ -24,8 +24,9 @@ const FEWEST_TOLD: usize = 5;
 const MANY: usize = 4;
 
 /// Finds which effect is missing from the models of several throws of the same objects: as
-/// [`super::diagnose`], with the parameters of an effect the same in all. Only what objects, camera
-/// and surroundings have is looked for, not what happens in one throw.
+/// [`super::diagnose`], with the parameters of an effect the same in all; but for impulses of third
+/// parties at the collision, which are each throw's own. What happens to single poses or at other
+/// moments isn't looked for.
 ///
 /// # Errors
 /// A scene can't be reconstructed, or an effect doesn't fit it; the message names the scene.
@@ -147,7 +148,10 @@ fn report(
         heldout_rmse_before: None,
         heldout_rmse_after: None,
         reduced_chi2: None,
-        parameters: parameters(instance, &candidate.values, &candidate.stds),
+        parameters: match candidate.is_shared {
+            true => parameters(instance, &candidate.values, &candidate.stds),
+            false => BTreeMap::new(),
+        },
         indistinguishable_from: alike.map(|(_, one)| one.label.clone()).collect(),
         shifts: Vec::new(),
         throws: Some(Agreement {

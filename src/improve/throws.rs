@@ -58,6 +58,9 @@ fn with_values(label: &str, held: &Instance) -> String {
         }
     };
     let settings: Vec<String> = held.fixed.iter().map(one).collect();
+    if settings.is_empty() {
+        return label.to_string();
+    }
     format!("{label}:{}", settings.join(","))
 }
 
