@@ -167,8 +167,12 @@ fn candidate(
         off.dot(&(&total * &off))
     };
     let single = significance(throws, &known, delta, count);
+    let agreement = ChiSquared::new(spread).ok().map(|chi| chi.sf(q));
+    // Throws that contradict each other must agree at least on there being an effect.
     let by_scatter = match FisherSnedecor::new(count, spread) {
-        Ok(fisher) if scatter2 > 1.0 => fisher.sf(wald / count / scatter2),
+        Ok(fisher) if agreement.is_some_and(|p| p < FALSE_ALARM) => {
+            fisher.sf(wald / count / scatter2)
+        }
         _ => 0.0,
     };
     let numbers: f64 = throws.iter().map(|throw| throw.fitted.numbers()).sum();
@@ -185,7 +189,7 @@ fn candidate(
         parameters,
         p_value: (tried as f64 * single.max(by_scatter)).min(1.0),
         bic: -delta + count * numbers.ln(),
-        agreement: ChiSquared::new(spread).ok().map(|chi| chi.sf(q)),
+        agreement,
         scatter: scatter2.sqrt(),
         predicts: known.len() < 2 || foretold > 0.0,
         is_shared: true,
