@@ -51,12 +51,12 @@ fn drawn_films_are_found_as_often_as_predicted() {
     assert!((19..=41).contains(&found), "{found} of {FILMS}");
 }
 
-/// χ² goes with one over the square of the noise, but for gravity's direction, which is known to
-/// 0.01° in any film.
+/// χ² goes with one over the square of the noise. Not where gravity may tilt a little instead: its
+/// direction is known to the same 0.01° in any film; hence effects that tilt can't imitate.
 #[test]
 fn half_the_noise_is_four_times_the_chi2() {
-    for (name, effect) in [("boxes", "inertia@a:factor=[1.1,1,1]"), ("boxes", "gravity_scale")] {
-        let power = asked(&spec(name), effect, None).unwrap();
+    for effect in ["inertia@a:factor=[1.1,1,1]", "torsional_impulse"] {
+        let power = asked(&spec("boxes"), effect, None).unwrap();
         for axis in &power.axes {
             for changed in &axis.noise {
                 let scaled = changed.chi2.unwrap() * changed.factor.powi(2);
