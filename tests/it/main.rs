@@ -16,6 +16,7 @@ mod free_rotation;
 mod import;
 mod installation;
 mod ledger;
+mod power;
 mod reconstruct;
 mod reconstruct_command;
 mod refined;
