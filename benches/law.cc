@@ -122,8 +122,13 @@ struct Cost {
 
   // With all derivatives, in microseconds: the least of many, which nothing disturbed.
   double Microseconds(std::vector<double>& residuals) {
-    std::vector<std::vector<double>> values = {{0, 1, 0, 2, 3, 1, 0.02, 0.03, -0.05}, {1, 0, 0, 0},
-                                               {0.0}, {0.01, -0.02}, {1, 2, -1}, {0.1, 0.9}, {0.2}};
+    std::vector<std::vector<double>> values = {{0, 1, 0, 2, 3, 1, 0.02, 0.03, -0.05},
+                                               {1, 0, 0, 0},
+                                               {0.0},
+                                               {0.01, -0.02},
+                                               {1, 2, -1},
+                                               {0.1, 0.9},
+                                               {0.2}};
     std::vector<double*> at, jacobians;
     std::vector<std::vector<double>> rows;
     for (auto& block : values) rows.emplace_back(6 * kPoses * block.size());
@@ -149,7 +154,11 @@ struct Cost {
 }  // namespace
 
 int main() {
-  const Surroundings around{-kGravity.normalized(), kGravity, {}, {}, {},
+  const Surroundings around{-kGravity.normalized(),
+                            kGravity,
+                            {},
+                            {},
+                            {},
                             {Vector3<double>::UnitX(), Vector3<double>::UnitY()}};
   const EffectBody body{kInertia, true, true, {{QuadraticDrag(), 0, 0, 1, 1.0}}, 1, around, false};
   const HandWrittenFlight hand;
@@ -158,8 +167,8 @@ int main() {
   frame.impulse_basis = Eigen::Matrix3d::Identity();
   frame.contact_origin.setZero();
   frame.contact_basis = hand.across;
-  Cost<EffectFlight> interpreted(new EffectFlight(body, true, gravity, frame, Poses(),
-                                                  std::vector<int>(kPoses, kStepsAPose)));
+  Cost<EffectFlight> interpreted(
+      new EffectFlight(body, true, gravity, frame, Poses(), std::vector<int>(kPoses, kStepsAPose)));
   Cost<HandWrittenFlight> by_hand(new HandWrittenFlight);
   std::vector<double> one, other;
   const double interpreted_us = interpreted.Microseconds(one);

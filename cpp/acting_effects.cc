@@ -14,6 +14,8 @@ namespace {
 // Of a flight that is only looked at, not fitted: errors below 1e-9.
 constexpr double kStepRad = 0.01;
 constexpr double kStepS = 0.002;
+// Some second of work.
+constexpr double kMostSteps = 2e6;
 
 Law ToLaw(const ActingLaw& acting) {
   Law law{static_cast<Hook>(acting.hook), acting.registers, acting.result, {}};
@@ -101,7 +103,11 @@ struct Course {
 
   FlownState At(double stamp_s, double time_s) {
     const double count = std::ceil(std::abs(time_s - reached_s) / step_s);
-    flight.AdvanceTo(time_s, std::max(1, static_cast<int>(std::min(count, 1e7))));
+    steps += count;
+    if (!(steps < kMostSteps)) {
+      throw std::runtime_error("a flight is too long, or turns too fast, to be followed");
+    }
+    flight.AdvanceTo(time_s, std::max(1, static_cast<int>(count)));
     reached_s = time_s;
     const FlightState<double>& state = flight.state();
     const Quaternion<double> seen = Turned(state.q, launch.laws.Turn(stamp_s, state));
@@ -116,6 +122,7 @@ struct Course {
   EffectLaunch<double> launch;
   ForcedFlight<double> flight;
   double step_s, reached_s;
+  double steps = 0.0;
 };
 
 }  // namespace

@@ -51,8 +51,8 @@ Evaluation EvaluateReference(const FlightCost& cost, const std::vector<double*>&
 // Central differences by one block, the orientation's along its tangent.
 MatrixX Differences(const ceres::CostFunction& cost, const std::vector<double*>& values,
                     std::size_t block) {
-  // Rounding, 1e-16 of some hundred deviations over the step, and curvature, the step's square, both
-  // stay below a millionth.
+  // Rounding, 1e-16 of some hundred deviations over the step, and curvature, the step's square,
+  // both stay below a millionth.
   constexpr double kStep = 1e-5;
   const int size = cost.parameter_block_sizes()[block];
   const int tangent = block == kOrientation ? 3 : size;

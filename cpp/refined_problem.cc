@@ -31,6 +31,8 @@ constexpr double kEffectStepS = 0.02;
 // An integrator's error larger than this share of a deviation could be taken for physics.
 constexpr double kLargestError = 0.02;
 constexpr int kFinest = 16;
+// Of one flight with effects: what takes more is a spin on its way beyond all numbers.
+constexpr double kMostEffectSteps = 2e4;
 
 class RefinedFit {
  public:
@@ -181,11 +183,15 @@ class RefinedFit {
   std::vector<int> EffectSteps(const Flight& flight, int fineness) const {
     const double fastest = FastestSpin(flight.body, flight.is_after, problem_.start);
     const double step_s = std::min(kLargestStepRad / fastest, kEffectStepS) / fineness;
+    const double start_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
+    if (!(std::abs(flight.poses.back().time_s - start_s) / step_s < kMostEffectSteps)) {
+      throw std::runtime_error("a flight is too long, or turns too fast, to be followed");
+    }
     std::vector<int> steps;
-    double reached_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
+    double reached_s = start_s;
     for (const FlightPose& pose : flight.poses) {
       const double count = std::ceil(std::abs(pose.time_s - reached_s) / step_s);
-      steps.push_back(std::max(1, static_cast<int>(std::min(count, 1e6))));
+      steps.push_back(std::max(1, static_cast<int>(count)));
       reached_s = pose.time_s;
     }
     return steps;

@@ -28,9 +28,9 @@ mod words;
 pub use nalgebra;
 
 pub use compare::{Comparison, compare};
-pub use diagnose::{Diagnosis, diagnose};
+pub use diagnose::{Diagnosis, diagnose, diagnose_throws};
 pub use error::{Error, ErrorKind, Result};
-pub use improve::{Improvement, improve};
+pub use improve::{Improvement, improve, improve_throws};
 pub use reconstruct::{Options, Reconstruction, reconstruct, reconstruct_with_progress};
 pub use scene::Scene;
 pub use schema::{SchemaKind, schema};

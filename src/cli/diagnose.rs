@@ -1,13 +1,13 @@
 //! `smash diagnose`: which effect is missing.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use smash::diagnose::{CandidateReport, Diagnosis};
 use smash::effect::EffectRequest;
 use smash::files::{Output, print_bytes};
-use smash::{Result, Scene, diagnose};
+use smash::{Result, Scene, diagnose, diagnose_throws};
 
 use super::method::Method;
 use super::table::aligned;
@@ -19,8 +19,10 @@ use super::table::aligned;
 /// effect explains.
 #[derive(Args)]
 pub struct Arguments {
-    /// The scene (smash.scene/1), or - for standard input
-    scene: PathBuf,
+    /// The scene (smash.scene/1), or - for standard input; several throws of the same objects are
+    /// diagnosed together
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
     /// Where to write the diagnosis (smash.diagnosis/1), or - for standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -36,13 +38,17 @@ pub struct Arguments {
 
 /// Reads, diagnoses, writes, tells.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let check = |path| Output::check(path, &[&arguments.scene]);
+    let inputs: Vec<&Path> = arguments.scenes.iter().map(PathBuf::as_path).collect();
+    let check = |path| Output::check(path, &inputs);
     let output = arguments.output.as_deref().map(check).transpose()?;
-    let scene = Scene::read(&arguments.scene)?;
-    super::warn(scene.warnings());
+    let scenes = read_all(&arguments.scenes)?;
     let further = requests(&arguments.further)?;
-    let diagnosis = diagnose(&scene, &arguments.method.refined()?, &further)
-        .map_err(|error| error.in_file(arguments.scene.display().to_string()))?;
+    let options = arguments.method.refined()?;
+    let diagnosis = match scenes.as_slice() {
+        [scene] => diagnose(scene, &options, &further)
+            .map_err(|error| error.in_file(arguments.scenes[0].display().to_string()))?,
+        throws => diagnose_throws(throws, &options, &further)?,
+    };
     let json = diagnosis.to_json();
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
@@ -53,6 +59,16 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => print_bytes(in_words(&diagnosis).as_bytes()),
     }
+}
+
+/// The scenes in these files, with their warnings told.
+pub fn read_all(paths: &[PathBuf]) -> Result<Vec<Scene>> {
+    let read = |path: &PathBuf| {
+        let scene = Scene::read(path)?;
+        super::warn(scene.warnings());
+        Ok(scene)
+    };
+    paths.iter().map(read).collect()
 }
 
 /// The effects that were typed.

@@ -1,23 +1,25 @@
 //! `smash improve`: the ladder of effects.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use smash::diagnose::Verdict;
 use smash::files::{Output, print_bytes, shell_word};
 use smash::improve::{Improvement, Rung};
-use smash::{Result, Scene, improve};
+use smash::{Result, improve, improve_throws};
 
-use super::diagnose::requests;
+use super::diagnose::{read_all, requests};
 use super::method::Method;
 use super::table::{aligned, degrees, millimetres};
 
 /// Adds effect after effect until nothing significant is missing, and shows the error fall
 #[derive(Args)]
 pub struct Arguments {
-    /// The scene (smash.scene/1), or - for standard input
-    scene: PathBuf,
+    /// The scene (smash.scene/1), or - for standard input; several throws of the same objects are
+    /// improved together
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
     /// Where to write the improvement (smash.improvement/1), or - for standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -33,13 +35,17 @@ pub struct Arguments {
 
 /// Reads, improves, writes, tells.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let check = |path| Output::check(path, &[&arguments.scene]);
+    let inputs: Vec<&Path> = arguments.scenes.iter().map(PathBuf::as_path).collect();
+    let check = |path| Output::check(path, &inputs);
     let output = arguments.output.as_deref().map(check).transpose()?;
-    let scene = Scene::read(&arguments.scene)?;
-    super::warn(scene.warnings());
+    let scenes = read_all(&arguments.scenes)?;
     let further = requests(&arguments.further)?;
-    let improvement = improve(&scene, &arguments.method.refined()?, &further)
-        .map_err(|error| error.in_file(arguments.scene.display().to_string()))?;
+    let options = arguments.method.refined()?;
+    let improvement = match scenes.as_slice() {
+        [scene] => improve(scene, &options, &further)
+            .map_err(|error| error.in_file(arguments.scenes[0].display().to_string()))?,
+        throws => improve_throws(throws, &options, &further)?,
+    };
     let json = improvement.to_json();
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
@@ -49,7 +55,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => {
-            let path = shell_word(&arguments.scene.to_string_lossy());
+            let path = match arguments.scenes.as_slice() {
+                [scene] => shell_word(&scene.to_string_lossy()),
+                _ => "SCENE".to_string(),
+            };
             print_bytes(in_words(&improvement, &path).as_bytes())
         }
     }

@@ -79,6 +79,31 @@ pub struct CandidateReport {
     pub indistinguishable_from: Vec<String>,
     /// What the collision's numbers were without it and are with it.
     pub shifts: Vec<Shift>,
+    /// Of several throws together: how they agree.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub throws: Option<Agreement>,
+}
+
+/// What several throws say of one effect.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Agreement {
+    /// How often throws with the same parameters would differ as much, by noise alone; null of a
+    /// single one.
+    pub p_value: Option<f64>,
+    /// How many times more they scatter than their own errors say, 1 and more; the deviations of the
+    /// parameters are larger by as much (Birge's ratio).
+    pub scatter: f64,
+    /// Each throw's own estimate.
+    pub each: Vec<ThrowEstimate>,
+}
+
+/// What one throw says of an effect.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ThrowEstimate {
+    /// The scene's name.
+    pub scene: String,
+    /// Its parameters by name, with no other bounds than their size.
+    pub parameters: BTreeMap<String, ParameterEstimate>,
 }
 
 /// A reported number that moves when an effect is added.

@@ -12,16 +12,23 @@ mod diagnosis;
 mod evidence;
 mod goodness;
 mod held_out;
+mod pooled;
 mod ranking;
+mod throws;
 mod verdict;
 mod words;
 
-pub use diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
+pub use diagnosis::{
+    Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
+};
+pub use throws::diagnose_throws;
 
 pub(crate) use candidates::{Candidate, all_candidates};
 pub(crate) use evidence::evidence;
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::held_out;
+pub(crate) use pooled::{PooledCandidate, Throw, pooled};
+pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 
 use rayon::prelude::*;
 

@@ -131,6 +131,7 @@ fn report(
             .map(|other| candidates[other].instance().label(scene))
             .collect(),
         shifts,
+        throws: None,
     })
 }
 

@@ -23,6 +23,35 @@ pub(super) fn explanation(
     }
 }
 
+/// What the `diagnosis` of `count` throws together says.
+pub(super) fn explanation_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
+    match (diagnosis.verdict, diagnosis.candidates.first()) {
+        (Verdict::Missing, Some(best)) => {
+            let mut text = format!("In {count} throws together: {}", missing(best, None, false));
+            let agreement = best.throws.as_ref();
+            if let Some((p, scatter)) = agreement.and_then(|a| Some((a.p_value?, a.scatter))) {
+                text += &match p < 0.01 {
+                    false => " The throws agree on it.".to_string(),
+                    true => format!(
+                        " The throws scatter {} times more than their own errors say: the errors \
+                         stated here are larger by as much.",
+                        significant(scatter, 2)
+                    ),
+                };
+            }
+            text
+        }
+        (Verdict::UnknownEffect, _) => format!(
+            "Most of the {count} throws are missed by more than their noise, and no effect that they \
+             could share explains it."
+        ),
+        _ => format!(
+            "{count} throws together show nothing that is missing. An effect weaker than the noise \
+             can still be there."
+        ),
+    }
+}
+
 fn nothing(model: &str, diagnosis: &Diagnosis, best: Option<&CandidateReport>) -> String {
     let fit = match diagnosis.reduced_chi2 {
         Some(reduced) => format!(" (χ² per degree of freedom {reduced:.2})"),

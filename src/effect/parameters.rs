@@ -12,6 +12,9 @@ use crate::{Error, ErrorKind, Result};
 /// The bounds of a parameter whose file states none.
 const WIDEST: [f64; 2] = [-1e6, 1e6];
 
+/// A result with larger numbers couldn't be read back.
+const LARGEST: f64 = 1e100;
+
 /// The longest name of an effect or a parameter, in letters.
 const LONGEST_NAME: usize = 40;
 
@@ -49,6 +52,10 @@ pub(super) fn parameter((name, file): (String, ParameterFile)) -> Result<Paramet
         return Err(
             Error::invalid(format!("{place}.bounds"), problem).mend("the least comes first")
         );
+    }
+    if bounds.iter().chain(&file.scale).any(|number| number.abs() > LARGEST) {
+        let problem = format!("holds a number beyond {}", limit(LARGEST));
+        return Err(Error::invalid(place, problem).mend("no quantity of a collision is so large"));
     }
     if let Some(outside) = null.iter().find(|value| !(low..=high).contains(value)) {
         let (low, high) = (limit(low), limit(high));

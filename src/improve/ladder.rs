@@ -25,7 +25,7 @@ pub struct Improvement {
     /// Of the whole ladder: `missing` where effects were added and explain the poses,
     /// `unknown_effect` where something is left that none explains.
     pub verdict: Verdict,
-    /// That of the last rung.
+    /// That of the last rung; of several throws the first one's.
     pub result: Reconstruction,
 }
 

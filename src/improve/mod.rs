@@ -2,8 +2,10 @@
 
 mod ladder;
 mod search;
+mod throws;
 
 pub use ladder::{IMPROVEMENT_SCHEMA, Improvement, Rung};
+pub use throws::improve_throws;
 
 use crate::diagnose::{Verdict, held_out, reported};
 use crate::effect::EffectRequest;

@@ -71,6 +71,28 @@ impl Instance {
         }
     }
 
+    /// Without the bounds that keep a parameter on one side of its null: estimates that are to be
+    /// averaged must be free to scatter to both.
+    pub(crate) fn freely(mut self) -> Instance {
+        for parameter in &mut self.effect.parameters {
+            let [low, high] = parameter.bounds;
+            for null in &parameter.null {
+                let reach = (high - null).max(null - low);
+                parameter.bounds[0] = parameter.bounds[0].min(null - reach);
+                parameter.bounds[1] = parameter.bounds[1].max(null + reach);
+            }
+        }
+        self
+    }
+
+    /// Whether it is a property of the objects or of the camera, the same in every throw; not an
+    /// event of one.
+    pub(crate) fn is_of_all_throws(&self) -> bool {
+        let has = |wanted: Hook| self.effect.laws.iter().any(|(hook, _)| *hook == wanted);
+        let strikes = has(Hook::AngularImpulse) || (has(Hook::Impulse) && !has(Hook::ImpulsePoint));
+        !strikes && !self.is_of_a_moment()
+    }
+
     /// Whether it is of single poses: it may be there more than once, and chooses among them.
     pub(crate) fn is_of_a_pose(&self) -> bool {
         self.effect.parameters.iter().any(|p| p.scan == Some(Scan::ObservationTimes))

@@ -99,6 +99,21 @@ pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Res
     Ok(columns.into_iter().map(gain).collect())
 }
 
+/// What the data say of the free parameters of the last effect, all else refitted: the inverse of
+/// their covariance, zero along what they don't tell.
+pub(crate) fn information_of_last(fitted: &Fitted) -> Result<DMatrix<f64>> {
+    let best = fitted.best();
+    let tangent = linearised(&fitted.refined, &best.solution.unknowns, best.gap)?;
+    let Some(acting) = fitted.acting.last() else { return Ok(DMatrix::zeros(0, 0)) };
+    let own = fitted.columns(acting);
+    let others: Vec<usize> =
+        (0..tangent.jacobian.ncols()).filter(|column| !own.contains(column)).collect();
+    let basis = orthonormal(tangent.jacobian.select_columns(&others));
+    let columns = tangent.jacobian.columns(own.start, own.len()).into_owned();
+    let apart = &columns - &basis * basis.tr_mul(&columns);
+    Ok(apart.tr_mul(&apart))
+}
+
 /// An orthonormal basis of the columns' span; directions that are rounding are left out.
 pub(super) fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
     /// Of a column's length.

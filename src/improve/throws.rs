@@ -1,0 +1,100 @@
+//! The ladder of several throws together: an effect that they share is added to all, with the values
+//! that all of them together say.
+
+use super::{Improvement, Rung};
+use crate::diagnose::{PooledCandidate, Throw, Verdict, held_out, instances, looks, pooled};
+use crate::diagnose::{reduced_chi2, reported, throws};
+use crate::effect::EffectRequest;
+use crate::reconstruct::RefinedOptions;
+use crate::reconstruct::refined::Instance;
+use crate::{Reconstruction, Result, Scene};
+
+/// Effects that throws can share and still be told apart.
+const MOST_EFFECTS: usize = 4;
+
+/// Improves the models of several throws of the same objects: as [`super::improve`], with the
+/// parameters of each effect the same in all.
+///
+/// # Errors
+/// As [`crate::diagnose::diagnose_throws`].
+pub fn improve_throws(
+    scenes: &[Scene],
+    options: &RefinedOptions,
+    further: &[EffectRequest],
+) -> Result<Improvement> {
+    let mut throws = throws(scenes, options)?;
+    let mut ladder = vec![rung(&throws, None, None, Vec::new())?];
+    for _ in 0..MOST_EFFECTS {
+        let candidates = pooled(&throws, &instances(&throws, further)?);
+        let Some(best) = candidates.into_iter().find(PooledCandidate::stands_out) else { break };
+        let mut setting = None;
+        for (index, throw) in throws.iter_mut().enumerate() {
+            if let Some(held) = best.held(index) {
+                throw.fitted = throw.fitted.with(throw.scene, &held)?;
+                setting.get_or_insert_with(|| with_values(&best.label, &held));
+            }
+        }
+        let known = ladder.last().map(|rung: &Rung| rung.with.clone()).unwrap_or_default();
+        let with: Vec<String> = known.into_iter().chain(setting).collect();
+        ladder.push(rung(&throws, Some(best.label), Some(best.p_value), with)?);
+    }
+    let (_, is_structured) = looks(&throws)?;
+    let verdict = match (ladder.len() > 1, is_structured) {
+        (_, true) => Verdict::UnknownEffect,
+        (true, false) => Verdict::Missing,
+        (false, false) => Verdict::NothingMissing,
+    };
+    let result = reported(throws[0].scene, &throws[0].fitted)?;
+    Ok(Improvement::new(throws[0].scene, verdict, ladder, Vec::new(), result))
+}
+
+/// `NAME@BODY:k=0.03`: what `--with` takes for each throw.
+fn with_values(label: &str, held: &Instance) -> String {
+    let one = |(name, values): (&String, &Vec<f64>)| match values.as_slice() {
+        [single] => format!("{name}={single}"),
+        all => {
+            let all: Vec<String> = all.iter().map(f64::to_string).collect();
+            format!("{name}=[{}]", all.join(","))
+        }
+    };
+    let settings: Vec<String> = held.fixed.iter().map(one).collect();
+    format!("{label}:{}", settings.join(","))
+}
+
+/// A rung, over the poses of all throws.
+fn rung(
+    throws: &[Throw],
+    added: Option<String>,
+    p_value: Option<f64>,
+    with: Vec<String>,
+) -> Result<Rung> {
+    let results: Vec<Reconstruction> =
+        throws.iter().map(|throw| reported(throw.scene, &throw.fitted)).collect::<Result<_>>()?;
+    let poses: Vec<f64> = throws
+        .iter()
+        .map(|throw| throw.fitted.refined.bodies.iter().map(|body| body.poses.len() as f64).sum())
+        .collect();
+    let rms = |values: Vec<Option<f64>>| -> Option<f64> {
+        let known =
+            values.iter().zip(&poses).filter_map(|(value, count)| Some((value.as_ref()?, count)));
+        let (count, squares) = known.fold((0.0, 0.0), |(count, squares), (value, poses)| {
+            (count + poses, squares + poses * value * value)
+        });
+        (count > 0.0).then(|| (squares / count).sqrt())
+    };
+    let position = rms(results.iter().map(|result| Some(result.fit.position_rmse)).collect());
+    Ok(Rung {
+        added,
+        with,
+        p_value,
+        position_rmse: position.unwrap_or(0.0),
+        orientation_rmse: rms(results.iter().map(|r| r.fit.orientation_rmse).collect()),
+        reduced_chi2: reduced_chi2(throws),
+        heldout_position_rmse: rms(throws
+            .iter()
+            .map(|t| held_out(&t.fitted).map(|h| h.position_rmse_m))
+            .collect()),
+        mass_ratio: None,
+        restitution: None,
+    })
+}
