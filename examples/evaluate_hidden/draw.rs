@@ -155,7 +155,9 @@ fn case(name: String, simulation: &Simulation, noise: Noise, seed: u64) -> Resul
     let noisy = add_noise(simulation.scene_file.clone(), &NoiseSpec::Gaussian(noise), seed);
     let truth = &simulation.truth;
     let request = |spec: &EffectSpec, is_known: fn(&str, &str) -> bool| {
-        let effect = find(&spec.name)?.into_owned();
+        let is_foreign = foreign::LAWS.contains(&spec.name.as_str());
+        let name = if is_foreign { foreign::path(&spec.name) } else { spec.name.clone() };
+        let effect = find(&name)?.into_owned();
         let known = spec.parameters.iter().filter(|(name, _)| is_known(&effect.name, name));
         let fixed = known.map(|(name, value)| (name.clone(), value.components().to_vec()));
         Ok(EffectRequest { fixed: fixed.collect(), effect, body: spec.body.clone() })

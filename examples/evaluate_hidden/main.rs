@@ -34,7 +34,6 @@ use smash::effect::catalogue;
 
 use case::Case;
 use draw::{Regime, hidden_scene};
-use single::Single;
 
 /// Diagnoses and improves scenes with hidden effects, and holds the answers against the truth
 #[derive(Parser)]
@@ -100,31 +99,30 @@ fn of_seeds(arguments: &Arguments) -> Result<()> {
         .flat_map(|name| (seed..seed + scenes).map(move |seed| (seed, *name)))
         .collect();
     let drawn = |(seed, name): &(u64, &str)| hidden_scene(&[name], Regime::of_seed(*seed), *seed);
-    tell_singles(&told(in_parallel(&singles, drawn)?, unstated)?)?;
+    tell(&told(in_parallel(&singles, drawn)?, unstated)?, single::tables)?;
     if only.is_some() {
         return Ok(());
     }
     let seeds = |count: u64| (seed..seed + count).collect::<Vec<u64>>();
     let clean = |seed: &u64| hidden_scene(&[], Regime::of_seed(*seed), *seed);
-    println!("{}", clean::table(&in_parallel(&seeds(arguments.clean), clean)?)?);
+    tell(&in_parallel(&seeds(arguments.clean), clean)?, clean::table)?;
     let pair = |seed: &u64| {
         let pair = PAIRS[*seed as usize % PAIRS.len()];
         hidden_scene(&pair, Regime::of_seed(*seed / PAIRS.len() as u64), *seed)
     };
     let pairs = in_parallel(&seeds(arguments.pairs), pair)?;
-    println!("{}", pair::table(&told(pairs, unstated)?)?);
+    tell(&told(pairs, unstated)?, pair::table)?;
     let outside = |seed: &u64| {
         let law = foreign::LAWS[*seed as usize % foreign::LAWS.len()];
         hidden_scene(&[law], Regime::of_seed(*seed / foreign::LAWS.len() as u64), *seed)
     };
     let outside = in_parallel(&seeds(arguments.outside), outside)?;
-    println!("{}", outside::table(&told(outside, unstated)?)?);
+    tell(&told(outside, unstated)?, outside::table)?;
     let timed =
         |seed: &u64| hidden_scene(&[names[*seed as usize % names.len()]], Regime::Medium, *seed);
     let mut timed = in_parallel(&seeds(arguments.timed), timed)?;
     timed.retain(|case| case.scene.bodies().len() == 2);
-    println!("{}", time::table(&timed)?);
-    Ok(())
+    tell(&timed, time::table)
 }
 
 fn of_folder(cases: Vec<Case>, unstated: bool) -> Result<()> {
@@ -132,14 +130,16 @@ fn of_folder(cases: Vec<Case>, unstated: bool) -> Result<()> {
         cases.into_iter().partition(|case| case.effects.is_empty());
     let (singles, pairs): (Vec<Case>, Vec<Case>) =
         told(cases, unstated)?.into_iter().partition(|case| !case.kind().contains('+'));
-    tell_singles(&singles)?;
-    println!("{}", clean::table(&clean)?);
-    println!("{}", pair::table(&pairs)?);
-    Ok(())
+    tell(&singles, single::tables)?;
+    tell(&clean, clean::table)?;
+    tell(&pairs, pair::table)
 }
 
-fn tell_singles(cases: &[Case]) -> Result<()> {
-    println!("{}", single::tables(&in_parallel(cases, Single::of)?));
+/// Prints what `table` makes of the cases, if there are any.
+fn tell(cases: &[Case], table: fn(&[Case]) -> Result<String>) -> Result<()> {
+    if !cases.is_empty() {
+        println!("{}", table(cases)?);
+    }
     Ok(())
 }
 

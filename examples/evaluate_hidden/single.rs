@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use rayon::prelude::*;
 use smash::Result;
 
 use crate::answer::Answer;
@@ -73,8 +74,12 @@ fn failure(case: &Case, answer: &Answer, with: &Fit) -> Result<String> {
     ))
 }
 
-/// The tables of all singles, in Markdown.
-pub fn tables(singles: &[Single]) -> String {
+/// The tables of cases with one effect, in Markdown.
+///
+/// # Errors
+/// A case can't be reconstructed.
+pub fn tables(cases: &[Case]) -> Result<String> {
+    let singles: Vec<Single> = cases.par_iter().map(Single::of).collect::<Result<_>>()?;
     let mut kinds: Vec<&str> = singles.iter().map(|single| single.kind.as_str()).collect();
     kinds.sort();
     kinds.dedup();
@@ -101,7 +106,7 @@ pub fn tables(singles: &[Single]) -> String {
         text += &failures.join("\n");
         text.push('\n');
     }
-    text
+    Ok(text)
 }
 
 fn naming(kind: &str, singles: &[&Single]) -> String {
