@@ -7,6 +7,7 @@ use crate::diagnose::Diagnosis;
 use crate::effect::file::EffectFile;
 use crate::improve::Improvement;
 use crate::json::pretty;
+use crate::power::Power;
 use crate::reconstruct::Reconstruction;
 use crate::scene::SceneFile;
 use crate::simulate::{SimulationSpec, Truth};
@@ -25,6 +26,8 @@ pub enum SchemaKind {
     Diagnosis,
     /// A ladder of effects: `smash.improvement/1`
     Improvement,
+    /// What a planned film could show: `smash.power/1`
+    Power,
     /// A law that the base model lacks (TOML)
     Effect,
     /// What to simulate: `smash.simulation/1`
@@ -45,6 +48,7 @@ pub fn schema(kind: SchemaKind) -> String {
         SchemaKind::Comparison => generator.into_root_schema_for::<Comparison>(),
         SchemaKind::Diagnosis => generator.into_root_schema_for::<Diagnosis>(),
         SchemaKind::Improvement => generator.into_root_schema_for::<Improvement>(),
+        SchemaKind::Power => generator.into_root_schema_for::<Power>(),
         SchemaKind::Effect => generator.into_root_schema_for::<EffectFile>(),
         SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),
         SchemaKind::Truth => generator.into_root_schema_for::<Truth>(),

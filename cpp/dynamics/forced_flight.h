@@ -84,11 +84,12 @@ class ForcedFlight {
   // Of the path alone, where no law looks at the rotation.
   void StepPath(const T& time_s, const T& step_s) {
     const T half_s = T(0.5) * step_s;
+    const Vector3<T> omega = Vector3<T>::Constant(T(0));
+    FlightState<T> at = state_;
     const auto rate = [&](const T& at_s, const Vector3<T>& p, const Vector3<T>& v) {
-      FlightState<T> state = state_;
-      state.p = p;
-      state.v = v;
-      return Vector3<T>(gravity_ + laws_.Acceleration(at_s, state, Vector3<T>::Constant(T(0))));
+      at.p = p;
+      at.v = v;
+      return Vector3<T>(gravity_ + laws_.Acceleration(at_s, at, omega));
     };
     const Vector3<T> v1 = state_.v;
     const Vector3<T> a1 = rate(time_s, state_.p, v1);

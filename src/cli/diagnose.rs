@@ -10,7 +10,8 @@ use smash::files::{Output, print_bytes};
 use smash::{Result, Scene, diagnose, diagnose_throws};
 
 use super::method::Method;
-use super::table::aligned;
+use super::table::{aligned, p_value, probability};
+use super::typed::Typed;
 
 /// Finds which physical effect the model lacks, ranked, with the evidence
 ///
@@ -44,11 +45,15 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scenes = read_all(&arguments.scenes)?;
     let further = requests(&arguments.further)?;
     let options = arguments.method.refined()?;
-    let diagnosis = match scenes.as_slice() {
+    let mut diagnosis = match scenes.as_slice() {
         [scene] => diagnose(scene, &options, &further)
             .map_err(|error| error.in_file(arguments.scenes[0].display().to_string()))?,
         throws => diagnose_throws(throws, &options, &further)?,
     };
+    let typed = Typed::new(&arguments.scenes, &arguments.method, &arguments.further)?;
+    for line in &mut diagnosis.advice {
+        *line = typed.completed(line);
+    }
     let json = diagnosis.to_json();
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
@@ -92,12 +97,12 @@ fn write_words(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
     writeln!(out, "{}", aligned(&rows))?;
     writeln!(
         out,
-        "nothing of these: {:.3}. Held out: how far poses are missed that the fit hasn't seen, \
-         without and with the effect.",
-        diagnosis.probability_of_nothing
+        "The probability that nothing is missing: {}. A p-value counts all candidates. Held out: how \
+         far\nthe fit misses positions that it hasn't seen, without and with the effect.",
+        probability(diagnosis.probability_of_nothing)
     )?;
     if !diagnosis.advice.is_empty() {
-        writeln!(out, "\nnext:")?;
+        writeln!(out, "\nNext")?;
     }
     for line in &diagnosis.advice {
         writeln!(out, "  {line}")?;
@@ -112,8 +117,8 @@ fn row(candidate: &CandidateReport) -> Vec<String> {
     };
     vec![
         candidate.label(),
-        format!("{:.3}", candidate.probability),
-        format!("{:.1e}", candidate.p_value),
+        probability(candidate.probability),
+        p_value(candidate.p_value),
         format!("{:.1}", candidate.delta_chi2),
         held_out,
     ]

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use smash::diagnose::Verdict;
-use smash::files::{Output, print_bytes, shell_word};
+use smash::files::{Output, print_bytes};
 use smash::improve::{Improvement, Rung};
 use smash::{Result, improve, improve_throws};
 
 use super::diagnose::{read_all, requests};
 use super::method::Method;
-use super::table::{aligned, degrees, millimetres};
+use super::table::{aligned, degrees, millimetres, p_value};
+use super::typed::Typed;
 
 /// Adds effect after effect until nothing significant is missing, and shows the error fall
 #[derive(Args)]
@@ -55,48 +56,55 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => {
-            let path = match arguments.scenes.as_slice() {
-                [scene] => shell_word(&scene.to_string_lossy()),
-                _ => "SCENE".to_string(),
-            };
-            print_bytes(in_words(&improvement, &path).as_bytes())
+            let typed = Typed::new(&arguments.scenes, &arguments.method, &arguments.further)?;
+            let again = |rung: &Rung| typed.reconstruction(&arguments.method, &rung.with);
+            print_bytes(in_words(&improvement, again).as_bytes())
         }
     }
 }
 
-fn in_words(improvement: &Improvement, path: &str) -> String {
+/// `again`: the command that makes a rung.
+fn in_words(improvement: &Improvement, again: impl Fn(&Rung) -> String) -> String {
     let mut text = String::new();
     // Writing to a string can't fail.
-    let _ = write_words(&mut text, improvement, path);
+    let _ = write_words(&mut text, improvement, again);
     text
 }
 
-fn write_words(out: &mut String, improvement: &Improvement, path: &str) -> std::fmt::Result {
+fn write_words(
+    out: &mut String,
+    improvement: &Improvement,
+    again: impl Fn(&Rung) -> String,
+) -> std::fmt::Result {
     let header =
         ["model", "p-value", "positions", "held out", "orientations", "χ²/dof", "m_b/m_a", "c"];
     let mut rows = vec![header.map(String::from).to_vec()];
     rows.extend(improvement.ladder.iter().map(row));
     writeln!(out, "{}", aligned(&rows))?;
     if !improvement.dropped.is_empty() {
-        writeln!(out, "dropped again, as superfluous: {}\n", improvement.dropped.join(", "))?;
+        writeln!(
+            out,
+            "Left out again, since the others do as well: {}\n",
+            improvement.dropped.join(", ")
+        )?;
     }
-    let last = improvement.ladder.last();
-    let added = last.map(|rung| rung.with.join(", ")).unwrap_or_default();
+    let added = improvement.ladder.last().map(|rung| rung.with.join(" and ")).unwrap_or_default();
     match improvement.verdict {
         Verdict::NothingMissing => {
-            writeln!(out, "nothing is missing that these poses could show")?;
+            writeln!(out, "Nothing is missing that these poses could show.")?
         }
-        Verdict::Missing => writeln!(out, "with {added} nothing more is missing")?,
+        Verdict::Missing => {
+            writeln!(out, "With {added} nothing more is missing that these poses could show.")?
+        }
         Verdict::UnknownEffect => writeln!(
             out,
-            "something is left that no effect explains: see smash diagnose, or write a law of your \
-             own"
+            "Something is left that no effect explains: smash diagnose says more, and --try takes a \
+             law of your own."
         )?,
     }
-    writeln!(out, "\neach rung again:")?;
+    writeln!(out, "\nEach rung again")?;
     for rung in &improvement.ladder {
-        let with: String = rung.with.iter().map(|label| format!(" --with {label}")).collect();
-        writeln!(out, "  smash reconstruct {path}{with}")?;
+        writeln!(out, "  {}", again(rung))?;
     }
     Ok(())
 }
@@ -105,7 +113,7 @@ fn row(rung: &Rung) -> Vec<String> {
     let or_none = |text: Option<String>| text.unwrap_or_else(|| "-".to_string());
     vec![
         rung.added.as_ref().map_or("start".to_string(), |added| format!("+ {added}")),
-        or_none(rung.p_value.map(|p| format!("{p:.1e}"))),
+        or_none(rung.p_value.map(p_value)),
         millimetres(rung.position_rmse),
         or_none(rung.heldout_position_rmse.map(millimetres)),
         or_none(rung.orientation_rmse.map(degrees)),

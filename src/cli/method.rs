@@ -39,7 +39,7 @@ enum IntervalsBy {
     Profile,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Preset {
     /// The SMASH paper to the letter
     Paper,
@@ -59,6 +59,18 @@ impl Method {
     /// Whether wrong annotations hardly count already.
     pub fn is_robust(&self) -> bool {
         self.robust
+    }
+
+    /// The effects, as they were typed.
+    pub fn effects(&self) -> &[String] {
+        &self.with
+    }
+
+    /// The refined method's other options, to be typed again; each after a space.
+    pub fn flags(&self) -> String {
+        let tilt = self.tilt_std.map(|degrees| format!(" --tilt-std {degrees}"));
+        let robust = self.robust.then(|| " --robust".to_string());
+        tilt.into_iter().chain(robust).collect()
     }
 
     /// What the library is asked for; ends the program with a usage error if that contradicts
@@ -94,6 +106,9 @@ impl Method {
     /// # Errors
     /// As [`Method::options`].
     pub fn refined(&self) -> smash::Result<RefinedOptions> {
+        if self.preset == Preset::Paper {
+            usage_error("effects are sought by the refined method: leave `--preset paper` out");
+        }
         if matches!(self.segment_by, Some(SegmentBy::Distance)) {
             usage_error("`--segment-by distance` is the paper's criterion: add `--preset paper`");
         }

@@ -10,12 +10,14 @@ mod import;
 mod improve;
 mod ledger;
 mod method;
+mod power;
 mod progress;
 mod reconstruct;
 mod schema;
 mod simulate;
 mod summary;
 mod table;
+mod typed;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -39,6 +41,7 @@ enum Command {
     Compare(compare::Arguments),
     Diagnose(diagnose::Arguments),
     Improve(improve::Arguments),
+    Power(power::Arguments),
     Effects(effects::Arguments),
     Import(import::Arguments),
     Simulate(simulate::Arguments),
@@ -56,6 +59,7 @@ pub fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Improve(arguments) => improve::run(&arguments),
+        Command::Power(arguments) => power::run(&arguments),
         Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

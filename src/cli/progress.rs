@@ -62,6 +62,13 @@ impl ProgressLine {
         }
     }
 
+    /// Shows that one of `of` steps is done, from any thread.
+    pub fn step(&self, of: usize) {
+        self.0.set_length(of as u64);
+        self.0.inc(1);
+        self.0.set_message(format!("{} of {of} questions", self.0.position()));
+    }
+
     /// Takes the line away.
     pub fn clear(&self) {
         self.0.finish_and_clear();

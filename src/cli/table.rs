@@ -38,3 +38,21 @@ pub fn decimals(value: f64, digits: usize) -> String {
     let is_zero = !text.contains(|c: char| ('1'..='9').contains(&c));
     if is_zero { text.trim_start_matches('-').to_string() } else { text }
 }
+
+/// A p-value; whether it is 1e-20 or 1e-30 tells nobody anything.
+pub fn p_value(p: f64) -> String {
+    match p {
+        _ if p < 1e-12 => "< 1e-12".to_string(),
+        _ if p < 1e-3 => format!("{p:.1e}"),
+        _ => format!("{p:.3}"),
+    }
+}
+
+/// A probability, which is never quite 0 nor 1.
+pub fn probability(p: f64) -> String {
+    match p {
+        _ if p < 1e-3 => "< 0.001".to_string(),
+        _ if p > 0.999 => "> 0.999".to_string(),
+        _ => format!("{p:.3}"),
+    }
+}

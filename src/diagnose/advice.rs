@@ -5,7 +5,7 @@ use crate::Scene;
 use crate::effect::{Effect, catalogue};
 use crate::reconstruct::refined::Fitted;
 
-/// The advice that goes with a diagnosis.
+/// The advice that goes with a diagnosis; in its commands SCENE is the scene's file.
 pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> Vec<String> {
     let mut advice = Vec::new();
     let known: String = fitted
@@ -28,20 +28,20 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
                 advice.extend(tell.filter(|tell| !advice.contains(tell)));
             }
             advice.push(format!(
-                "add it: smash reconstruct SCENE{known} --with {} -o RESULT",
+                "add it: smash reconstruct SCENE{known} --with {} -o result.json",
                 best.label()
             ));
             advice.push(format!("look for more: smash improve SCENE{known}"));
         }
         (Verdict::UnknownEffect, _) => {
             advice.push(
-                "look where the model fails: smash reconstruct SCENE -o RESULT, then smash compare \
-                 SCENE RESULT --svg FOLDER"
+                "look where the model fails: smash reconstruct SCENE -o result.json, then smash compare \
+                 SCENE result.json --svg plots"
                     .to_string(),
             );
             advice.push(
-                "write the law that you suspect into a file (smash effects show quadratic_drag is \
-                 one to start from) and try it: smash diagnose SCENE --try ./law.toml"
+                "write the law that you suspect into a file (start from smash effects show \
+                 quadratic_drag) and try it: smash diagnose SCENE --try ./law.toml"
                     .to_string(),
             );
         }
@@ -49,7 +49,7 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
             if diagnosis.reduced_chi2.is_none() {
                 advice.push(
                     "state the noise of the annotations in the scene (`noise`) if you know it: \
-                     weaker effects show then"
+                     then weaker effects show"
                         .to_string(),
                 );
             }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::unexplained::Unexplained;
 use crate::compare::ChannelTest;
 use crate::reconstruct::{ActiveEffect, ParameterEstimate};
 
@@ -32,6 +33,9 @@ pub struct Diagnosis {
     pub candidates: Vec<CandidateReport>,
     /// How probable it is that nothing is missing, beside the candidates' probabilities.
     pub probability_of_nothing: f64,
+    /// Of an unknown effect: the force and torque that are left over, the clearest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unexplained: Vec<Unexplained>,
     /// The answer in plain words.
     pub explanation: String,
     /// What to film or measure to tell candidates apart, and the command to type next.

@@ -2,6 +2,7 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
+use super::FALSE_ALARM;
 use crate::reconstruct::refined::Fitted;
 
 /// What speaks for a larger model against one that it holds.
@@ -70,10 +71,27 @@ fn tail(p: f64, degrees: f64) -> f64 {
 }
 
 impl Evidence {
-    /// Schwarz's criterion against the model without: −Δχ² + k ln n; where a pose was chosen from
-    /// `poses` that choice counts too.
+    /// Schwarz's criterion against the model without: −Δχ² and the penalty.
     pub(crate) fn bic(&self, numbers: f64, poses: Option<usize>) -> f64 {
-        let chosen = poses.map_or(0.0, |poses| 2.0 * (poses as f64).ln());
-        -self.delta_chi2 + self.parameters as f64 * numbers.ln() + chosen
+        -self.delta_chi2 + penalty(self.parameters, numbers, poses)
     }
+}
+
+/// What Schwarz's criterion asks of a model with so many parameters more: k ln n; where a pose was
+/// chosen from `poses` that choice counts too.
+fn penalty(parameters: usize, numbers: f64, poses: Option<usize>) -> f64 {
+    let chosen = poses.map_or(0.0, |poses| 2.0 * (poses as f64).ln());
+    parameters as f64 * numbers.ln() + chosen
+}
+
+/// The Δχ² above which a candidate is both significant and more probable than none, where the noise
+/// is stated; arguments as those of [`evidence`] and [`Evidence::bic`].
+pub(crate) fn critical_chi2(
+    parameters: usize,
+    (scanned, tried): (usize, usize),
+    numbers: f64,
+    poses: Option<usize>,
+) -> f64 {
+    let significant = tail(FALSE_ALARM / (scanned * tried) as f64, parameters as f64);
+    significant.max(penalty(parameters, numbers, poses))
 }

@@ -15,6 +15,7 @@ mod held_out;
 mod pooled;
 mod ranking;
 mod throws;
+mod unexplained;
 mod verdict;
 mod words;
 
@@ -22,12 +23,14 @@ pub use diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
 };
 pub use throws::diagnose_throws;
+pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use candidates::{Candidate, all_candidates};
-pub(crate) use evidence::evidence;
+pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::held_out;
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
+pub(crate) use ranking::look_alikes;
 pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 
 use rayon::prelude::*;
@@ -73,7 +76,7 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
     let mut candidates: Vec<Candidate> = promising
         .par_iter()
         .filter_map(|instance| {
-            let with = fitted.with(scene, instance).ok()?;
+            let with = fitted.with_quickly(scene, instance).ok()?;
             candidates::candidate(scene, fitted, with, instances.len(), before)
         })
         .collect();

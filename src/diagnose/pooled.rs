@@ -103,7 +103,7 @@ pub(crate) fn pooled(throws: &[Throw], instances: &[Vec<Instance>]) -> Vec<Poole
 }
 
 fn own(throw: &Throw, instance: &Instance) -> Result<Option<Own>> {
-    let with = throw.fitted.with(throw.scene, &instance.clone().freely())?;
+    let with = throw.fitted.with_quickly(throw.scene, &instance.clone().freely())?;
     let information = information_of_last(&with)?;
     let Some(acting) = with.acting.last() else { return Ok(None) };
     let range = acting.first..acting.first + acting.count;

@@ -16,7 +16,7 @@ pub(super) fn probabilities(candidates: &[Candidate]) -> (Vec<f64>, f64) {
 }
 
 /// The places of the candidates that the data can't tell from number `index`.
-pub(super) fn look_alikes(candidates: &[Candidate], index: usize) -> Vec<usize> {
+pub(crate) fn look_alikes(candidates: &[Candidate], index: usize) -> Vec<usize> {
     let own = &candidates[index];
     let is_alike = |other: &usize| {
         *other != index

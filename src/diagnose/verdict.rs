@@ -3,6 +3,7 @@
 use super::advice::advice;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 use super::ranking::{look_alikes, probabilities};
+use super::unexplained::unexplained;
 use super::words::explanation;
 use super::{Candidate, Goodness, reported, tried};
 use crate::compare::channels;
@@ -30,13 +31,18 @@ pub(super) fn diagnosis(
     let first = candidates.iter().position(Candidate::stands_out);
     let rest = first.map(|first| rest(scene, &candidates[first])).transpose()?;
     let second = match (first, &rest) {
-        (Some(_), Some(rest)) if rest.is_structured => second(scene, &candidates, &instances),
+        // Where the noise isn't known, what is left says little of a second.
+        (Some(_), Some(rest)) if rest.is_structured && fitted.has_stated_noise() => {
+            second(scene, &candidates, &instances)
+        }
         _ => None,
     };
     let verdict = match (first, &rest) {
         (None, _) if goodness.is_structured => Verdict::UnknownEffect,
         (None, _) => Verdict::NothingMissing,
-        (Some(_), Some(rest)) if !explains(&goodness, rest) && second.is_none() => {
+        (Some(first), Some(rest))
+            if !explains(&candidates[first], &goodness, rest) && second.is_none() =>
+        {
             Verdict::UnknownEffect
         }
         _ => Verdict::Missing,
@@ -61,6 +67,10 @@ pub(super) fn diagnosis(
         reduced_chi2: result.fit.reduced_chi2,
         candidates: reports,
         probability_of_nothing: none,
+        unexplained: match verdict {
+            Verdict::UnknownEffect => unexplained(scene, fitted)?,
+            _ => Vec::new(),
+        },
         explanation: String::new(),
         advice: Vec::new(),
     };
@@ -78,10 +88,15 @@ fn rest(scene: &Scene, candidate: &Candidate) -> Result<Goodness> {
     Ok(Goodness::of(&candidate.fitted, &channels))
 }
 
-fn explains(before: &Goodness, after: &Goodness) -> bool {
-    match (before.excess, after.excess) {
+/// Whether a candidate explains most of what is missed; where the noise isn't stated, most of what
+/// unseen poses are missed by.
+fn explains(candidate: &Candidate, before: &Goodness, after: &Goodness) -> bool {
+    match (before.excess, after.excess, candidate.held_out) {
         _ if !after.is_structured => true,
-        (Some(before), Some(after)) => after < EXPLAINS * before,
+        (Some(before), Some(after), _) => after < EXPLAINS * before,
+        (_, _, Some([before, after])) => {
+            after.position_rmse_m.powi(2) < EXPLAINS * before.position_rmse_m.powi(2)
+        }
         _ => false,
     }
 }

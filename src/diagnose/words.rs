@@ -1,8 +1,10 @@
 //! The answer in plain words.
 
+use super::FALSE_ALARM;
 use super::diagnosis::{CandidateReport, Diagnosis, Verdict};
+use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
-use crate::words::significant;
+use crate::words::{counted, significant};
 
 /// What `diagnosis` says. `pair`: two effects that explain together what one doesn't;
 /// `stays_structured`: whether even the best leaves more than noise.
@@ -11,13 +13,13 @@ pub(super) fn explanation(
     pair: Option<&str>,
     stays_structured: bool,
 ) -> String {
-    let model = match diagnosis.model.is_empty() {
-        true => "The base model".to_string(),
-        false => "The model".to_string(),
-    };
+    let model = if diagnosis.model.is_empty() { "The base model" } else { "The model" };
     match (diagnosis.verdict, diagnosis.candidates.first()) {
-        (Verdict::NothingMissing, best) => nothing(&model, diagnosis, best),
-        (Verdict::UnknownEffect, best) => unknown(&model, best.filter(|best| best.stands_out)),
+        (Verdict::NothingMissing, best) => nothing(model, diagnosis, best),
+        (Verdict::UnknownEffect, best) => {
+            let left: String = diagnosis.unexplained.iter().map(leftover).collect();
+            unknown(model, best.filter(|best| best.stands_out)) + &left
+        }
         (Verdict::Missing, Some(best)) => missing(best, pair, stays_structured),
         (Verdict::Missing, None) => String::new(),
     }
@@ -57,25 +59,37 @@ fn nothing(model: &str, diagnosis: &Diagnosis, best: Option<&CandidateReport>) -
         Some(reduced) => format!(" (χ² per degree of freedom {reduced:.2})"),
         None => String::new(),
     };
-    let closest = best.map_or(String::new(), |best| {
-        format!(
-            " The closest candidate is {}: noise alone would seem as much of one in {} of 100 such \
-             scenes.",
-            best.label(),
-            significant(100.0 * best.p_value, 2)
-        )
-    });
+    let closest = best.map_or(String::new(), |best| format!(" {}", closest(best)));
     format!(
         "{model} explains the poses to their noise{fit}: nothing is missing that these poses could \
          show.{closest} An effect weaker than the noise can still be there."
     )
 }
 
+/// How near the best candidate comes that doesn't stand out.
+fn closest(best: &CandidateReport) -> String {
+    let label = best.label();
+    if best.p_value >= 0.5 {
+        return format!("The best candidate, {label}, does no more than noise alone would.");
+    }
+    let percent = significant(100.0 * best.p_value, 2);
+    if best.p_value >= FALSE_ALARM {
+        return format!(
+            "The best candidate is {label}; by noise alone one would look as good in {percent} of \
+             100 such scenes."
+        );
+    }
+    format!(
+        "The best candidate, {label}, fits better than noise alone would in {percent} of 100 such \
+         scenes, but doesn't predict unseen poses better, or isn't worth its parameters."
+    )
+}
+
 fn unknown(model: &str, best: Option<&CandidateReport>) -> String {
     let tried = match best {
         Some(best) => format!(
-            " The best of the catalogue, {}, helps (χ² falls by {}), but leaves most of it: don't \
-             take it for the cause.",
+            " The best candidate, {}, helps (χ² falls by {}), but leaves too much: don't take it for \
+             the cause.",
             best.label(),
             significant(best.delta_chi2, 3)
         ),
@@ -84,22 +98,40 @@ fn unknown(model: &str, best: Option<&CandidateReport>) -> String {
     format!("{model} misses the poses by more than their noise.{tried}")
 }
 
+/// What is left over, in a sentence.
+fn leftover(one: &Unexplained) -> String {
+    let (what, unit) = match one.kind {
+        Kind::Acceleration => ("a further acceleration", "m/s²"),
+        Kind::Torque => ("a further torque per unit of its mass", "m²/s²"),
+    };
+    let best = one.forms.first().map_or(String::new(), |form| {
+        format!(
+            "; {} % of it goes with {}: try {}",
+            significant(100.0 * form.share, 2),
+            form.goes_with,
+            form.law
+        )
+    });
+    format!(" {} feels {what} of {} {unit} (rms){best}.", one.body, significant(one.rms, 2))
+}
+
 fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -> String {
     let looks = catalogue().iter().find(|effect| effect.name == best.effect);
     let title = looks.map_or(best.effect.as_str(), |effect| effect.title.as_str());
-    let mut text = format!("{} is missing: {}", best.label(), lower_first(title));
+    let mut text = format!("{} is missing: {title}", best.label());
     if !best.parameters.is_empty() {
         text += &format!(" ({})", parameters(best));
     }
     text += &format!(
-        ". With it χ² falls by {} for {} {}",
+        ". With it χ² falls by {}, for {}",
         significant(best.delta_chi2, 3),
-        best.parameters_added,
-        if best.parameters_added == 1 { "number" } else { "numbers" }
+        counted(best.parameters_added, "parameter")
     );
-    if let (Some(before), Some(after)) = (best.heldout_rmse_before, best.heldout_rmse_after) {
+    if let (Some(before), Some(after)) = (best.heldout_rmse_before, best.heldout_rmse_after)
+        && after < before
+    {
         text += &format!(
-            ", and poses that it hasn't seen are missed by {} mm instead of {} mm",
+            ", and positions that the fit hasn't seen are missed by {} mm instead of {} mm",
             significant(1e3 * after, 3),
             significant(1e3 * before, 3)
         );
@@ -123,7 +155,7 @@ fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -
         }
         (None, true) => {
             text += " But the residuals stay structured: it may be only the nearest that the \
-                     catalogue has, or one of several.";
+                     catalogue has, or one of several that are missing.";
         }
         (None, false) => {}
     }
@@ -152,13 +184,5 @@ pub(super) fn listed(names: &[String]) -> String {
         [] => String::new(),
         [one] => one.clone(),
         [rest @ .., last] => format!("{} or {last}", rest.join(", ")),
-    }
-}
-
-fn lower_first(text: &str) -> String {
-    let mut letters = text.chars();
-    match letters.next() {
-        Some(first) => first.to_lowercase().chain(letters).collect(),
-        None => String::new(),
     }
 }

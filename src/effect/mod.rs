@@ -39,6 +39,7 @@ pub use hook::Hook;
 pub use names::INPUTS;
 pub use program::{Instruction, Operation, Program};
 pub use request::EffectRequest;
+pub(crate) use request::name_of;
 pub use unit::{Dimension, Unit};
 
 /// A law with its parameters, and what people should know of it.

@@ -57,6 +57,11 @@ impl EffectRequest {
     }
 }
 
+/// The name or path in `NAME[@BODY][:parameter=value,…]`.
+pub(crate) fn name_of(text: &str) -> &str {
+    &text[..end_of_name(text)]
+}
+
 /// A path may hold `@` and `:` itself.
 fn end_of_name(text: &str) -> usize {
     let after_path = text.match_indices(".toml").map(|(at, found)| at + found.len());

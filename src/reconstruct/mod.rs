@@ -59,7 +59,7 @@ pub fn reconstruct_with_progress(
     }
 }
 
-fn solver_error(error: cxx::Exception) -> Error {
+pub(crate) fn solver_error(error: cxx::Exception) -> Error {
     Error::new(ErrorKind::Solve, format!("the optimiser failed: {}", error.what()))
         .mend("look at the scene for poses far off their neighbours, and at its sizes")
 }

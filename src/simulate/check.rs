@@ -86,6 +86,16 @@ impl Partner {
 }
 
 pub(super) fn setup(spec: &SimulationSpec) -> Result<Setup> {
+    let (stage, mut model) = staged(spec)?;
+    let strike = check_strike(&spec.collision, &stage, model.as_ref())?;
+    if let Some(model) = &mut model {
+        model.strike(&strike.impulse_on_a);
+    }
+    Ok(Setup { stage, strike, model })
+}
+
+/// All but the collision.
+pub(super) fn staged(spec: &SimulationSpec) -> Result<(Stage, Option<Model>)> {
     check_schema(&spec.schema, SIMULATION_SCHEMA)?;
     check_name("name", &spec.name)?;
     if let Some(fps) = spec.fps {
@@ -106,11 +116,7 @@ pub(super) fn setup(spec: &SimulationSpec) -> Result<Setup> {
             model.complete(index, &mut actor.before)?;
         }
     }
-    let strike = check_strike(&spec.collision, &stage, model.as_ref())?;
-    if let Some(model) = &mut model {
-        model.strike(&strike.impulse_on_a);
-    }
-    Ok(Setup { stage, strike, model })
+    Ok((stage, model))
 }
 
 fn check_noise_spec(noise: &NoiseSpec) -> Result<()> {

@@ -1,16 +1,17 @@
 //! Effects as a specification asks for them: which, on which bodies, and how strong.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effect::{EffectRequest, Parameter, Scan, find};
+use crate::effect::{Effect, EffectRequest, Parameter, Scan, find, name_of};
 use crate::reconstruct::Number;
 use crate::reconstruct::refined::acting::{Instance, instances};
 use crate::scene::DynamicBody;
 use crate::words::{did_you_mean, limit, quoted};
-use crate::{Error, Result, Scene};
+use crate::{Error, ErrorKind, Result, Scene};
 
 /// An effect beyond the base model, with the body that it acts on and its parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -27,19 +28,41 @@ pub struct EffectSpec {
 }
 
 impl EffectSpec {
+    /// Reads `NAME[@BODY][:parameter=value,…]`, as [`EffectRequest::parse`] does.
+    ///
+    /// # Errors
+    /// As [`EffectRequest::parse`].
+    pub fn parse(text: &str) -> Result<EffectSpec> {
+        let EffectRequest { body, fixed, .. } = EffectRequest::parse(text)?;
+        let parameters = fixed.into_iter().map(|(name, value)| (name, value.into())).collect();
+        Ok(EffectSpec { name: name_of(text).to_owned(), body, parameters })
+    }
+
+    /// The same with no parameter known.
+    ///
+    /// # Errors
+    /// There is no such effect.
+    pub(crate) fn unknown(&self) -> Result<EffectRequest> {
+        let effect = self.effect()?;
+        Ok(EffectRequest { effect, body: self.body.clone(), fixed: BTreeMap::new() })
+    }
+
+    fn effect(&self) -> Result<Effect> {
+        if self.name == "-" {
+            return Err(Error::new(ErrorKind::Invalid, "is standard input")
+                .mend("name an effect of the catalogue, or a file"));
+        }
+        find(&self.name).map(Cow::into_owned)
+    }
+
     /// What acts in `outline`, which holds the bodies and their stamps; the effect is at `place` in
     /// the specification.
     pub(super) fn instances(&self, place: &str, outline: &Scene) -> Result<Vec<Instance>> {
-        if self.name == "-" {
-            return Err(Error::invalid(format!("{place}.name"), "is standard input")
-                .mend("name an effect of the catalogue, or a file"));
-        }
-        let found = find(&self.name).map_err(|error| match error.place() {
+        let effect = self.effect().map_err(|error| match error.place() {
             // Within the effect's own file.
             Some(_) => error,
             None => error.at(format!("{place}.name")),
         })?;
-        let effect = found.into_owned();
         let fixed = self.values(place, &effect.name, &effect.parameters)?;
         let request = EffectRequest { effect, body: self.body.clone(), fixed };
         let instances = instances(outline, &request).map_err(|error| error.at(place))?;

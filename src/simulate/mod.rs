@@ -30,10 +30,12 @@ pub use truth::{TRUTH_SCHEMA, TrueBody, Truth};
 
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+
 use crate::rigid_body::RigidBody;
 use crate::scene::SceneFile;
 use crate::{Result, Scene};
-use check::{Setup, setup};
+use check::{Setup, setup, staged};
 use motion::Forced;
 use observe::{check_effort, scene_file};
 use truth::truth;
@@ -65,6 +67,38 @@ pub fn simulate(spec: &SimulationSpec) -> Result<Simulation> {
     let scene_file = add_noise(exact, &spec.noise, spec.seed);
     let scene = Scene::from_file(scene_file.clone())?;
     Ok(Simulation { scene_file, scene, truth: truth(spec, &setup, &motions), motions })
+}
+
+/// `spec` with these effects in place of its own, and each shape where it was at the collision:
+/// effects that put the centre of mass off the shape's move the former.
+///
+/// # Errors
+/// An effect doesn't fit the bodies.
+pub(crate) fn with_effects(
+    spec: &SimulationSpec,
+    effects: Vec<EffectSpec>,
+) -> Result<SimulationSpec> {
+    let mut changed = SimulationSpec { effects, ..spec.clone() };
+    let (was, is) = (shape_centres_in_world(spec)?, shape_centres_in_world(&changed)?);
+    for ((index, was), (_, is)) in was.into_iter().zip(is) {
+        if let Some(position) = &mut changed.bodies[index].position {
+            *position = (Vector3::from(*position) + was - is).into();
+        }
+    }
+    Ok(changed)
+}
+
+/// Of the dynamic bodies at the collision, with their places in `spec`.
+fn shape_centres_in_world(spec: &SimulationSpec) -> Result<Vec<(usize, Vector3<f64>)>> {
+    let (stage, model) = staged(spec)?;
+    let centre = |(number, actor): (usize, &check::Actor)| {
+        let centre = match &model {
+            Some(model) => model.shape_centre_in_world(number)?,
+            None => actor.before.position_in_world,
+        };
+        Ok((actor.index, centre))
+    };
+    stage.actors().enumerate().map(centre).collect()
 }
 
 /// How the dynamic bodies move, a first: **J** acts on a, −**J** on b.

@@ -27,4 +27,5 @@ mod schema;
 mod simulate;
 mod simulate_command;
 mod simulate_effects;
+mod story;
 mod with;

@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::acting::{Acting, Instance};
 use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
-use super::noise::{KnownNoise, LEAST_NOISE, positions, settle_noise, turns};
+use super::noise::{KnownNoise, LEAST_NOISE, MOST_NOISE_ROUNDS, positions, settle_noise, turns};
 use super::optimum::{Optimum, evaluated, nested_optimum, optima_from};
 use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
@@ -52,7 +52,11 @@ impl Fitted {
     /// # Errors
     /// No start leads to a solution.
     pub(crate) fn with(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
-        let found = self.extended(scene, instance);
+        let started = Instant::now();
+        let found = self.extended(scene, instance).and_then(|mut fitted| {
+            fitted.settle()?;
+            self.with_phase(scene, fitted, started)
+        });
         found.map_err(|error| {
             error.at(instance.label(scene)).mend(
                 "hold some of its parameters at known values (`:NAME=VALUE`), or leave it out; an \
@@ -61,8 +65,22 @@ impl Fitted {
         })
     }
 
+    /// As [`Fitted::with`], near enough to judge the effect: noise that isn't stated is estimated
+    /// anew once, not until it settles.
+    ///
+    /// # Errors
+    /// No start leads to a solution.
+    pub(crate) fn with_quickly(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
+        let mut fitted = self.extended(scene, instance)?;
+        if self.loss == Loss::Squares && self.stated.is_none() {
+            fitted.optima.truncate(1);
+            fitted.noise =
+                settle_noise(&mut fitted.refined, &mut fitted.optima, self.noise.value, 1)?;
+        }
+        Ok(fitted)
+    }
+
     fn extended(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
-        let started = Instant::now();
         let mut refined = self.refined.clone();
         let acting = instance.act_on(&mut refined);
         let starts = starts(self, scene, &refined, &acting)?;
@@ -72,12 +90,16 @@ impl Fitted {
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
         fitted.acting.push(acting);
-        fitted.settle()?;
-        let cost_initial = self.cost_with_poses_of(&fitted)?;
+        Ok(fitted)
+    }
+
+    /// `fitted`, which extends this, with what that took as a phase.
+    fn with_phase(&self, scene: &Scene, mut fitted: Fitted, started: Instant) -> Result<Fitted> {
+        let label = fitted.acting.last().map_or(String::new(), |a| a.instance.label(scene));
         let best = &fitted.best().solution;
         let phase = PhaseReport {
-            name: format!("{} {}", self.phases.len() + 1, instance.label(scene)),
-            cost_initial,
+            name: format!("{} {label}", self.phases.len() + 1),
+            cost_initial: self.cost_with_poses_of(&fitted)?,
             cost_final: best.cost,
             iterations: best.iterations,
             seconds: Some(started.elapsed().as_secs_f64()),
@@ -119,7 +141,8 @@ impl Fitted {
             (Loss::Squares, Some(_)) => {}
             (Loss::Squares, None) => {
                 let guess = self.noise.value;
-                self.noise = settle_noise(&mut self.refined, &mut self.optima, guess)?;
+                self.noise =
+                    settle_noise(&mut self.refined, &mut self.optima, guess, MOST_NOISE_ROUNDS)?;
             }
         }
         Ok(())

@@ -8,7 +8,7 @@ use crate::bridge::refined::ffi::{RefinedScene, RefinedSolution};
 use crate::scene::Noise;
 
 /// Rounds of estimating the noise; it settles to a per mille in three or four.
-const MOST_NOISE_ROUNDS: usize = 8;
+pub(super) const MOST_NOISE_ROUNDS: usize = 8;
 /// From fewer spare numbers the estimate would be off by a factor of two as often as not.
 const LEAST_SPARE: f64 = 1.5;
 /// Below, the noise is that of rounding and of the integrator.
@@ -51,11 +51,12 @@ pub(super) fn settle_noise(
     scene: &mut RefinedScene,
     optima: &mut Vec<Optimum>,
     guess: Noise,
+    most_rounds: usize,
 ) -> Result<KnownNoise> {
     let mut noise = KnownNoise::stated(guess);
     // Only the best is refitted on the way: the others follow once.
     let mut best = optima[..1].to_vec();
-    for _ in 0..MOST_NOISE_ROUNDS {
+    for _ in 0..most_rounds {
         let next = estimated_noise(scene, &best[0], noise.value);
         let settled = close(next.value.position, noise.value.position)
             && close(next.value.orientation, noise.value.orientation);

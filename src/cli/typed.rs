@@ -1,0 +1,95 @@
+//! What was typed, for the commands that a person may type next.
+
+use std::path::PathBuf;
+
+use smash::Result;
+use smash::effect::EffectRequest;
+use smash::files::shell_word;
+
+use super::method::Method;
+
+/// Scenes and options, as they were typed.
+pub struct Typed {
+    scenes: Vec<String>,
+    options: String,
+    /// Effects that the model has, and further candidates.
+    effects: Vec<(EffectRequest, String)>,
+}
+
+impl Typed {
+    /// Of a command with these arguments.
+    ///
+    /// # Errors
+    /// An effect isn't one, or its file is faulty.
+    pub fn new(scenes: &[PathBuf], method: &Method, further: &[String]) -> Result<Typed> {
+        let effects = method.effects().iter().chain(further);
+        let effects = effects.map(|text| Ok((EffectRequest::parse(text)?, text.clone())));
+        Ok(Typed {
+            scenes: scenes.iter().map(|path| shell_word(&path.to_string_lossy())).collect(),
+            options: method.flags(),
+            effects: effects.collect::<Result<_>>()?,
+        })
+    }
+
+    /// A line of advice with the scene's own path for SCENE, and effects as they were typed.
+    pub fn completed(&self, line: &str) -> String {
+        let (one, options) = (self.scene(), &self.options);
+        let several = match self.scenes.as_slice() {
+            [one] => format!("{one} OTHER_SCENE …"),
+            all => all.join(" "),
+        };
+        let line = line
+            .replace("SCENE SCENE …", &format!("{several}{options}"))
+            .replace("compare SCENE", &format!("compare {one}"))
+            .replace(" SCENE ", &format!(" {one}{options} "));
+        let line = line
+            .strip_suffix(" SCENE")
+            .map_or(line.clone(), |start| format!("{start} {one}{options}"));
+        let mut words = line.split(' ');
+        let mut completed: Vec<String> = words.next().map(String::from).into_iter().collect();
+        for word in words {
+            let is_effect = completed.last().is_some_and(|before| before == "--with");
+            completed.push(if is_effect { self.effect(word) } else { word.to_string() });
+        }
+        completed.join(" ")
+    }
+
+    /// The command that reconstructs the scene with `labels` beside the effects that were typed.
+    pub fn reconstruction(&self, method: &Method, labels: &[String]) -> String {
+        let typed = method.effects().iter().map(|text| shell_word(text));
+        let effects = typed.chain(labels.iter().map(|label| self.effect(label)));
+        let with: String = effects.map(|effect| format!(" --with {effect}")).collect();
+        format!("smash reconstruct {}{}{with}", self.scene(), self.options)
+    }
+
+    /// The scene; of several any.
+    fn scene(&self) -> &str {
+        match self.scenes.as_slice() {
+            [scene] => scene,
+            _ => "SCENE",
+        }
+    }
+
+    /// What to type for the effect with this label: of a file its path, and values that are given.
+    fn effect(&self, label: &str) -> String {
+        let (name, body) = match label.split_once('@') {
+            Some((name, body)) => (name, Some(body)),
+            None => (label, None),
+        };
+        let is_it = |request: &EffectRequest| {
+            request.effect.name == name
+                && (request.body.is_none() || request.body.as_deref() == body)
+        };
+        let Some((request, text)) = self.effects.iter().find(|(request, _)| is_it(request)) else {
+            return shell_word(label);
+        };
+        match body.filter(|_| request.body.is_none()) {
+            None => shell_word(text),
+            Some(body) if request.fixed.is_empty() => shell_word(&format!("{text}@{body}")),
+            Some(body) => {
+                let (path, values) = text.rsplit_once(':').unwrap_or((text, ""));
+                shell_word(&format!("{path}@{body}:{values}"))
+            }
+        }
+    }
+}

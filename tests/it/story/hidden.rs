@@ -1,0 +1,157 @@
+//! Each effect of the catalogue, hidden alone.
+
+use nalgebra::Vector3;
+use smash::SchemaKind;
+use smash::diagnose::Verdict;
+use smash::reconstruct::RefinedOptions;
+use smash::simulate::{EffectSpec, SimulationSpec};
+
+use super::*;
+
+/// Stories that are told here.
+const STORIES: f64 = 16.0;
+
+/// The story of one hidden effect; `alike`: labels that no data, or hardly any, could tell from it.
+fn tell(spec: SimulationSpec, hidden: EffectSpec, alike: &[&str]) {
+    let label = match &hidden.body {
+        Some(body) => format!("{}@{body}", hidden.name),
+        None => hidden.name.clone(),
+    };
+    let simulation = with(spec, &[hidden]);
+    let scene = &simulation.scene;
+    let is_right = |found: &str| {
+        let on_the_floor = found.split('@').next() == Some(label.as_str());
+        found == label || on_the_floor || alike.contains(&found)
+    };
+
+    assert!(is_structured(scene, &fit(scene, &[])), "{label}: the comparison shows nothing");
+
+    let diagnosis = smash::diagnose(scene, &RefinedOptions::default(), &[]).unwrap();
+    assert_eq!(diagnosis.verdict, Verdict::Missing, "{label}: {}", diagnosis.explanation);
+    let best = &diagnosis.candidates[0];
+    let named = best.label();
+    let is_named = is_right(&named) || best.indistinguishable_from.iter().any(|one| is_right(one));
+    assert!(is_named, "{label}: {}", diagnosis.explanation);
+    assert!(diagnosis.explanation.starts_with(&named), "{}", diagnosis.explanation);
+    assert!(!diagnosis.explanation.contains("stay structured"), "{}", diagnosis.explanation);
+    let command = format!(" --with {named}");
+    assert!(diagnosis.advice.iter().any(|line| line.contains(&command)), "{:?}", diagnosis.advice);
+    assert_fits(SchemaKind::Diagnosis, &diagnosis.to_json());
+
+    let improvement = smash::improve(scene, &RefinedOptions::default(), &[]).unwrap();
+    let with = &last(&improvement).with;
+    assert_eq!(improvement.verdict, Verdict::Missing, "{label}: {with:?}");
+    assert!(with.len() == 1 && with.iter().any(|found| is_right(found)), "{label}: {with:?}");
+    assert!(is_in_band(&improvement.result, STORIES), "{label}: {:?}", improvement.result.fit);
+    assert!(!is_structured(scene, &improvement.result), "{label}: something is left");
+    assert_down_to_the_noise(scene, &improvement, &label);
+    assert_right(&simulation, &improvement.result, &label);
+    assert_replayed(scene, &improvement, &label);
+    assert_fits(SchemaKind::Improvement, &improvement.to_json());
+}
+
+/// The two drags are told apart by speeds that differ: these do.
+#[test]
+fn linear_drag() {
+    tell(boxes(1), effect("linear_drag", Some("b"), &[("k", &[0.3])]), &["quadratic_drag@b"]);
+}
+
+#[test]
+fn quadratic_drag() {
+    tell(boxes(1), effect("quadratic_drag", Some("a"), &[("k", &[0.15])]), &["linear_drag@a"]);
+}
+
+#[test]
+fn magnus() {
+    tell(boxes(1), effect("magnus", Some("a"), &[("k", &[0.02])]), &[]);
+}
+
+#[test]
+fn constant_force() {
+    tell(boxes(1), effect("constant_force", Some("b"), &[("a", &[0.4, 0.0, -0.3])]), &[]);
+}
+
+/// With one body nothing tells a force from a tilt.
+#[test]
+fn constant_force_on_a_single_body() {
+    let force = effect("constant_force", Some("a"), &[("a", &[0.5, 0.0, -0.3])]);
+    tell(box_on_floor(2), force, &["gravity_tilt"]);
+}
+
+#[test]
+fn gravity_scale() {
+    tell(boxes(1), effect("gravity_scale", None, &[("s", &[0.96])]), &[]);
+}
+
+#[test]
+fn gravity_tilt() {
+    tell(boxes(1), effect("gravity_tilt", None, &[("tilt1", &[0.08]), ("tilt2", &[-0.05])]), &[]);
+}
+
+#[test]
+fn spin_drag() {
+    tell(boxes(1), effect("spin_drag", Some("a"), &[("kappa", &[0.3])]), &[]);
+}
+
+#[test]
+fn inertia() {
+    tell(boxes(1), effect("inertia", Some("a"), &[("factor", &[1.2, 0.9, 1.1])]), &[]);
+}
+
+#[test]
+fn com_offset() {
+    let offset = Vector3::new(0.012, -0.02, 0.015);
+    let hidden = effect("com_offset", Some("a"), &[("offset", offset.as_slice())]);
+    tell(loaded(boxes(1), offset), hidden, &[]);
+}
+
+#[test]
+fn friction() {
+    tell(box_on_floor(2), effect("friction", None, &[("mu", &[0.15])]), &["friction@a"]);
+}
+
+#[test]
+fn external_impulse() {
+    tell(boxes(1), effect("external_impulse", Some("b"), &[("P", &[0.1, 0.15, -0.1])]), &[]);
+}
+
+#[test]
+fn torsional_impulse() {
+    tell(boxes(1), effect("torsional_impulse", None, &[("M", &[0.004])]), &[]);
+}
+
+/// In the middle between two poses.
+#[test]
+fn second_impact() {
+    let spec = boxes(1);
+    let time_s = stamp_s(&spec, 0, 20) + 0.02;
+    let hidden = effect(
+        "second_impact",
+        Some("a"),
+        &[("time", &[time_s]), ("impulse", &[0.3, 0.2, 0.1]), ("spin", &[0.004, 0.0, 0.002])],
+    );
+    tell(spec, hidden, &[]);
+}
+
+#[test]
+fn outlier() {
+    let spec = boxes(1);
+    let time_s = stamp_s(&spec, 1, 4);
+    let hidden = effect(
+        "outlier",
+        Some("b"),
+        &[("time", &[time_s]), ("shift", &[0.05, -0.03, 0.0]), ("turn", &[0.2, 0.0, 0.1])],
+    );
+    tell(spec, hidden, &[]);
+}
+
+/// Of two clocks only the difference is seen.
+#[test]
+fn time_offset() {
+    tell(boxes(1), effect("time_offset", Some("b"), &[("delay", &[0.02])]), &[]);
+}
+
+#[test]
+fn depth_scale() {
+    tell(boxes(1), effect("depth_scale", Some("b"), &[("s", &[1.03])]), &[]);
+}
