@@ -2,18 +2,21 @@
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use smash::effect::{EffectRequest, find};
 use smash::reconstruct::Options;
 use smash::scene::{Camera, Noise, SceneFile};
 use smash::simulate::{
-    NoiseSpec, RegularSampling, Sampling, Simulation, SimulationSpec, add_noise, simulate,
+    EffectSpec, NoiseSpec, RegularSampling, Sampling, Simulation, SimulationSpec, add_noise,
+    simulate,
 };
 use smash::{Error, ErrorKind, Result, Scene};
 
 use crate::case::Case;
+use crate::foreign;
 use crate::strength::{Hidden, acted_on};
 
 /// How often the bodies are seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub enum Regime {
     /// Every frame, 60 poses of each body.
     Dense,
@@ -30,7 +33,18 @@ const LARGEST_LAMBDA: f64 = 1500.0;
 /// Some effects don't show on some bodies, as a ball's inertia: then another scene is drawn.
 const MOST_DRAWS: usize = 200;
 
-/// A scene with all these effects of the catalogue hidden in it.
+impl Regime {
+    /// Each in turn.
+    pub fn of_seed(seed: u64) -> Regime {
+        match seed % 3 {
+            0 => Regime::Dense,
+            1 => Regime::Medium,
+            _ => Regime::Sparse,
+        }
+    }
+}
+
+/// A scene with all these effects hidden in it, of the catalogue or [`foreign`].
 ///
 /// # Errors
 /// No draw makes them strong enough.
@@ -44,7 +58,7 @@ pub fn hidden_scene(effects: &[&str], regime: Regime, seed: u64) -> Result<Case>
             orientation: random.random_range(0.005..0.03),
         };
         if let Some(simulation) = with_effects(spec, effects, noise, &mut random) {
-            return case(&simulation, noise, random.next_u64());
+            return case(format!("seed {seed}"), &simulation, noise, random.next_u64());
         }
     }
     let problem = format!("no scene shows {} by seed {seed}", effects.join("+"));
@@ -137,17 +151,27 @@ fn lambda(mut exact: SceneFile, noise: Noise) -> Option<f64> {
     smash::reconstruct(&scene, &Options::default()).ok()?.fit.chi2
 }
 
-fn case(simulation: &Simulation, noise: Noise, seed: u64) -> Result<Case> {
+fn case(name: String, simulation: &Simulation, noise: Noise, seed: u64) -> Result<Case> {
     let noisy = add_noise(simulation.scene_file.clone(), &NoiseSpec::Gaussian(noise), seed);
     let truth = &simulation.truth;
-    let labels = truth.effects.iter().map(|effect| match &effect.body {
-        Some(body) => format!("{}@{body}", effect.name),
-        None => effect.name.clone(),
-    });
+    let request = |spec: &EffectSpec, is_known: fn(&str, &str) -> bool| {
+        let is_foreign = foreign::LAWS.contains(&spec.name.as_str());
+        let name = if is_foreign { foreign::path(&spec.name) } else { spec.name.clone() };
+        let effect = find(&name)?.into_owned();
+        let known = spec.parameters.iter().filter(|(name, _)| is_known(&effect.name, name));
+        let fixed = known.map(|(name, value)| (name.clone(), value.components().to_vec()));
+        Ok(EffectRequest { fixed: fixed.collect(), effect, body: spec.body.clone() })
+    };
+    let requests = |is_known: fn(&str, &str) -> bool| -> Result<Vec<EffectRequest>> {
+        truth.effects.iter().map(|spec| request(spec, is_known)).collect()
+    };
     Ok(Case {
+        name,
         scene: Scene::from_file(noisy)?,
-        effects: labels.collect(),
+        effects: requests(foreign::is_measured)?,
+        true_effects: Some(requests(|_, _| true)?),
         mass_ratio: truth.mass_ratio,
         restitution: truth.restitution,
+        noise,
     })
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde_json::Value;
-use smash::effect::catalogue;
+use smash::effect::{EffectRequest, catalogue};
 use smash::files::read_text;
 use smash::{Error, ErrorKind, Result, Scene};
 
@@ -42,12 +42,18 @@ fn case(scene_path: &Path, truth_path: &Path) -> Result<Option<Case>> {
         eprintln!("{}: {} isn't in the catalogue", scene_path.display(), labels.join(", "));
         return Ok(None);
     }
+    let scene = Scene::read(scene_path)?;
+    let noise = scene.noise().ok_or_else(|| wrong("the scene states no noise"))?;
     let restitution = truth["restitution"].as_f64();
+    let requests: Result<Vec<_>> = labels.iter().map(|label| EffectRequest::parse(label)).collect();
     Ok(Some(Case {
-        scene: Scene::read(scene_path)?,
-        effects: labels,
+        name: scene_path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        scene,
+        effects: requests?,
+        true_effects: None,
         mass_ratio: truth["mass_ratio"].as_f64(),
         restitution: restitution.ok_or_else(|| wrong("`restitution` isn't a number"))?,
+        noise,
     }))
 }
 

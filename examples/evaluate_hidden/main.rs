@@ -1,96 +1,159 @@
-//! Scenes with hidden effects: what the base model makes of them, and the model with the right ones.
+//! Scenes with hidden effects: is what is missing found, named and added?
 //!
 //! Each scene is drawn by its seed: two bodies in mid-air or one on a floor, seen often or seldom,
-//! with noise, and with an effect that is strong enough to be found, none, or two. Prints a table.
+//! with noise, and with an effect that is strong enough to be found, none, two, or a law that the
+//! catalogue hasn't got. Prints tables.
 //!
 //! ```sh
-//! cargo run --release --example evaluate_hidden                        # all effects, 12 scenes each
-//! cargo run --release --example evaluate_hidden -- --effect friction   # only this one
-//! cargo run --release --example evaluate_hidden -- --folder hidden     # case_*.json, truth/case_*.json
+//! cargo run --release --example evaluate_hidden                      # 6 scenes of each effect
+//! cargo run --release --example evaluate_hidden -- --scenes 20 --seed 1000 --clean 500
+//! cargo run --release --example evaluate_hidden -- --only friction   # only this effect
+//! cargo run --release --example evaluate_hidden -- --folder hidden   # case_*.json, truth/case_*.json
 //! ```
 
+mod answer;
 mod case;
+mod clean;
 mod draw;
+mod fit;
 mod folder;
-mod score;
+mod foreign;
+mod outside;
+mod pair;
+mod single;
 mod strength;
+mod table;
+mod time;
 
 use std::path::PathBuf;
 
 use clap::Parser;
 use rayon::prelude::*;
-use smash::effect::{EffectRequest, catalogue};
-use smash::reconstruct::RefinedOptions;
-use smash::{Options, Reconstruction, Result};
+use smash::Result;
+use smash::effect::catalogue;
 
 use case::Case;
 use draw::{Regime, hidden_scene};
-use score::{Outcome, row};
 
-/// Reconstructs scenes with hidden effects, without and with them
+/// Diagnoses and improves scenes with hidden effects, and holds the answers against the truth
 #[derive(Parser)]
 struct Arguments {
-    /// Scenes of each kind, from seeds 0, 1, 2, …; dense, medium and sparse in turn
-    #[arg(long, default_value_t = 12)]
+    /// Scenes of each single effect; dense, medium and sparse in turn
+    #[arg(long, default_value_t = 6)]
     scenes: u64,
-    /// Only this effect of the catalogue, or `none`, or two joined by `+`
-    #[arg(long = "effect", value_name = "NAME")]
-    effects: Vec<String>,
-    /// A folder of scenes case_*.json, each with its truth/case_*.json
+    /// The first seed
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Scenes without any effect, each with the noise stated and estimated
+    #[arg(long, default_value_t = 48)]
+    clean: u64,
+    /// Scenes with two effects
+    #[arg(long, default_value_t = 16)]
+    pairs: u64,
+    /// Scenes with a law that the catalogue hasn't got
+    #[arg(long, default_value_t = 18)]
+    outside: u64,
+    /// Scenes of 2 × 20 poses to take the time of
+    #[arg(long, default_value_t = 16)]
+    timed: u64,
+    /// Only this single effect
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
+    /// Don't tell the noise of scenes with effects
+    #[arg(long)]
+    unstated: bool,
+    /// Instead, a folder of scenes case_*.json, each with its truth/case_*.json
     #[arg(long)]
     folder: Option<PathBuf>,
 }
 
-/// Pairs that occur together, each about another part of the model.
-const PAIRS: [&str; 3] =
-    ["gravity_scale+spin_drag", "quadratic_drag+time_offset", "magnus+outlier"];
+/// Pairs that occur together.
+const PAIRS: [[&str; 2]; 8] = [
+    ["gravity_scale", "spin_drag"],
+    ["quadratic_drag", "time_offset"],
+    ["magnus", "outlier"],
+    ["linear_drag", "spin_drag"],
+    ["gravity_scale", "outlier"],
+    ["quadratic_drag", "magnus"],
+    ["com_offset", "quadratic_drag"],
+    ["friction", "quadratic_drag"],
+];
 
 fn main() -> Result<()> {
     let arguments = Arguments::parse();
     smash::silence_solver_log();
-    println!("{}", score::HEADING);
     match &arguments.folder {
-        Some(folder) => tell_folder(folder::cases(folder)?),
-        None => {
-            let singles = catalogue().iter().map(|effect| effect.name.as_str());
-            let all = ["none"].into_iter().chain(singles).chain(PAIRS);
-            let wanted = &arguments.effects;
-            for kind in all.filter(|kind| wanted.is_empty() || wanted.iter().any(|w| w == kind)) {
-                println!("{}", row(kind, &drawn(kind, arguments.scenes)?));
-            }
-        }
+        Some(folder) => of_folder(folder::cases(folder)?, arguments.unstated),
+        None => of_seeds(&arguments),
+    }
+}
+
+fn of_seeds(arguments: &Arguments) -> Result<()> {
+    let Arguments { scenes, seed, unstated, .. } = *arguments;
+    let only = arguments.only.as_deref();
+    let names: Vec<&str> = catalogue().iter().map(|effect| effect.name.as_str()).collect();
+    let names: Vec<&str> =
+        names.into_iter().filter(|name| only.is_none_or(|only| only == *name)).collect();
+    let singles: Vec<(u64, &str)> = names
+        .iter()
+        .flat_map(|name| (seed..seed + scenes).map(move |seed| (seed, *name)))
+        .collect();
+    let drawn = |(seed, name): &(u64, &str)| hidden_scene(&[name], Regime::of_seed(*seed), *seed);
+    tell(&told(in_parallel(&singles, drawn)?, unstated)?, single::tables)?;
+    if only.is_some() {
+        return Ok(());
+    }
+    let seeds = |count: u64| (seed..seed + count).collect::<Vec<u64>>();
+    let clean = |seed: &u64| hidden_scene(&[], Regime::of_seed(*seed), *seed);
+    tell(&in_parallel(&seeds(arguments.clean), clean)?, clean::table)?;
+    let pair = |seed: &u64| {
+        let pair = PAIRS[*seed as usize % PAIRS.len()];
+        hidden_scene(&pair, Regime::of_seed(*seed / PAIRS.len() as u64), *seed)
+    };
+    let pairs = in_parallel(&seeds(arguments.pairs), pair)?;
+    tell(&told(pairs, unstated)?, pair::table)?;
+    let outside = |seed: &u64| {
+        let law = foreign::LAWS[*seed as usize % foreign::LAWS.len()];
+        hidden_scene(&[law], Regime::of_seed(*seed / foreign::LAWS.len() as u64), *seed)
+    };
+    let outside = in_parallel(&seeds(arguments.outside), outside)?;
+    tell(&told(outside, unstated)?, outside::table)?;
+    let timed =
+        |seed: &u64| hidden_scene(&[names[*seed as usize % names.len()]], Regime::Medium, *seed);
+    let mut timed = in_parallel(&seeds(arguments.timed), timed)?;
+    timed.retain(|case| case.scene.bodies().len() == 2);
+    tell(&timed, time::table)
+}
+
+fn of_folder(cases: Vec<Case>, unstated: bool) -> Result<()> {
+    let (clean, cases): (Vec<Case>, Vec<Case>) =
+        cases.into_iter().partition(|case| case.effects.is_empty());
+    let (singles, pairs): (Vec<Case>, Vec<Case>) =
+        told(cases, unstated)?.into_iter().partition(|case| !case.kind().contains('+'));
+    tell(&singles, single::tables)?;
+    tell(&clean, clean::table)?;
+    tell(&pairs, pair::table)
+}
+
+/// Prints what `table` makes of the cases, if there are any.
+fn tell(cases: &[Case], table: fn(&[Case]) -> Result<String>) -> Result<()> {
+    if !cases.is_empty() {
+        println!("{}", table(cases)?);
     }
     Ok(())
 }
 
-fn drawn(kind: &str, scenes: u64) -> Result<Vec<Outcome>> {
-    let names: Vec<&str> = kind.split('+').filter(|name| *name != "none").collect();
-    let seeds: Vec<u64> = (0..scenes).collect();
-    let of_seed = |&seed: &u64| {
-        let regime = [Regime::Dense, Regime::Medium, Regime::Sparse][seed as usize % 3];
-        Ok(outcome(&hidden_scene(&names, regime, seed)?))
-    };
-    seeds.par_iter().map(of_seed).collect()
-}
-
-fn tell_folder(cases: Vec<Case>) {
-    let mut kinds: Vec<String> = cases.iter().map(Case::kind).collect();
-    kinds.sort();
-    kinds.dedup();
-    for kind in kinds {
-        let cases: Vec<&Case> = cases.iter().filter(|case| case.kind() == kind).collect();
-        let outcomes: Vec<Outcome> = cases.par_iter().map(|case| outcome(case)).collect();
-        println!("{}", row(&kind, &outcomes));
+/// The cases as their scenes tell them.
+fn told(cases: Vec<Case>, unstated: bool) -> Result<Vec<Case>> {
+    match unstated {
+        true => cases.into_iter().map(Case::unstated).collect(),
+        false => Ok(cases),
     }
 }
 
-/// A case fitted without and with its effects.
-fn outcome(case: &Case) -> Outcome {
-    let fit = |effects: Vec<EffectRequest>| -> Result<Reconstruction> {
-        let options = RefinedOptions { effects, ..RefinedOptions::default() };
-        smash::reconstruct(&case.scene, &Options::Refined(options))
-    };
-    let requests = case.effects.iter().map(|label| EffectRequest::parse(label));
-    let with = requests.collect::<Result<Vec<_>>>().and_then(fit);
-    Outcome::of(case, fit(Vec::new()), with)
+fn in_parallel<T: Sync, R: Send>(
+    all: &[T],
+    each: impl Fn(&T) -> Result<R> + Sync + Send,
+) -> Result<Vec<R>> {
+    all.par_iter().map(each).collect()
 }

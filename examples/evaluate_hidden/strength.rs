@@ -10,23 +10,26 @@ use smash::reconstruct::Number;
 use smash::rigid_body::principal_inertia_per_mass;
 use smash::simulate::{EffectSpec, Simulation, SimulationSpec};
 
+use crate::foreign;
+
 /// An effect but for its size.
 pub struct Hidden {
     name: String,
     body: Option<usize>,
-    /// Value at the null, and what a size of 1 adds to it.
-    parameters: Vec<(&'static str, Value, Value)>,
+    parameters: Parameters,
     /// The largest sensible size; 1 where the size isn't free.
     pub largest: f64,
 }
 
-type Value = Vec<f64>;
+pub type Value = Vec<f64>;
+/// Names, values at the null, and what a size of 1 adds to them.
+pub type Parameters = Vec<(&'static str, Value, Value)>;
 
 /// Which body an effect acts on, among the dynamic ones; `None` for all together.
 pub fn acted_on(name: &str, base: &Simulation, random: &mut ChaCha8Rng) -> Option<usize> {
     let last = base.scene.bodies().len() - 1;
     match name {
-        "gravity_scale" | "gravity_tilt" | "friction" | "torsional_impulse" => None,
+        "gravity_scale" | "gravity_tilt" | "friction" | "torsional_impulse" | "coriolis" => None,
         "external_impulse" | "time_offset" | "depth_scale" => Some(last),
         _ => Some(random.random_range(0..=last)),
     }
@@ -41,11 +44,13 @@ impl Hidden {
         random: &mut ChaCha8Rng,
     ) -> Hidden {
         let seen = &base.scene.bodies()[body.unwrap_or(0)];
+        if foreign::LAWS.contains(&name) {
+            let centre = base.truth.bodies[body.unwrap_or(0)].position.into();
+            let parameters = foreign::parameters(name, centre, random);
+            return Hidden { name: foreign::path(name), body, parameters, largest: 50.0 };
+        }
         let edges_m = Vector3::from(seen.shape.edges_m());
         let sign = if random.random() { 1.0 } else { -1.0 };
-        let scalar = |name, size: f64| (name, vec![0.0], vec![size]);
-        let vector = |name, v: Vector3<f64>| (name, vec![0.0; 3], v.as_slice().to_vec());
-        let fixed = |name, value: f64| (name, vec![value], vec![0.0]);
         let (parameters, largest) = match name {
             "linear_drag" => (vec![scalar("k", 0.1)], 10.0),
             "quadratic_drag" => (vec![scalar("k", 0.05)], 10.0),
@@ -80,7 +85,7 @@ impl Hidden {
             "second_impact" => {
                 let impulse = 0.1 * direction(random);
                 let lever = 0.4 * direction(random).component_mul(&edges_m);
-                let time = fixed("time", a_gap_s(base, body.unwrap_or(0), random));
+                let time = fixed("time", &[a_gap_s(base, body.unwrap_or(0), random)]);
                 (
                     vec![time, vector("impulse", impulse), vector("spin", lever.cross(&impulse))],
                     10.0,
@@ -88,7 +93,7 @@ impl Hidden {
             }
             "outlier" => {
                 let hit = random.random_range(0..seen.observations.len());
-                let time = fixed("time", seen.observations[hit].time_s);
+                let time = fixed("time", &[seen.observations[hit].time_s]);
                 let turn = if random.random() { 0.2 } else { 0.0 } * direction(random);
                 (vec![time, vector("shift", 0.05 * direction(random)), vector("turn", turn)], 4.0)
             }
@@ -128,6 +133,21 @@ impl Hidden {
         });
         spec
     }
+}
+
+/// A scalar that is so much at a size of 1.
+pub fn scalar(name: &'static str, size: f64) -> (&'static str, Value, Value) {
+    (name, vec![0.0], vec![size])
+}
+
+/// A vector that is so much at a size of 1.
+pub fn vector(name: &'static str, v: Vector3<f64>) -> (&'static str, Value, Value) {
+    (name, vec![0.0; 3], v.as_slice().to_vec())
+}
+
+/// What is there at any size.
+pub fn fixed(name: &'static str, value: &[f64]) -> (&'static str, Value, Value) {
+    (name, value.to_vec(), vec![0.0; value.len()])
 }
 
 pub fn direction(random: &mut ChaCha8Rng) -> Vector3<f64> {

@@ -31,7 +31,7 @@ pub(crate) fn evidence(
     if parameters == 0 {
         return None;
     }
-    let delta = (without.deviance() - with.deviance()).max(0.0);
+    let delta = without.fall_to(with).max(0.0);
     let count = parameters as f64;
     let chi = ChiSquared::new(count).ok()?;
     let single = match with.has_stated_noise() {
@@ -48,15 +48,14 @@ pub(crate) fn evidence(
     Some(Evidence { delta, delta_chi2, parameters, p_value })
 }
 
-/// Fisher's F-test of nested models, with the likelihood ratio of all channels as that of one: how
-/// often noise alone lets −2 ln L fall by `delta`.
+/// Fisher's F-test of nested models, exact for one channel: how often noise alone lets −2 ln L fall
+/// by `delta`.
 fn fisher(with: &Fitted, delta: f64, parameters: f64) -> Option<f64> {
-    let numbers = with.numbers();
-    let spare = numbers - with.used();
+    let spare = with.numbers() - with.used();
     if spare < 1.0 {
         return None;
     }
-    let f = (delta / numbers).exp_m1() * spare / parameters;
+    let f = (delta / spare).exp_m1() * spare / parameters;
     Some(FisherSnedecor::new(parameters, spare).ok()?.sf(f))
 }
 

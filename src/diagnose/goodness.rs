@@ -25,7 +25,7 @@ impl Goodness {
             return Goodness { excess: None, is_structured: looks_structured };
         }
         let spare = (fitted.numbers() - fitted.used()).max(1.0);
-        let chi2 = fitted.deviance();
+        let chi2 = fitted.chi2();
         let tail = ChiSquared::new(spare).map_or(1.0, |chi| chi.sf(chi2));
         Goodness { excess: Some(chi2 - spare), is_structured: tail < IMPROBABLE }
     }

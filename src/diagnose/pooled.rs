@@ -125,7 +125,7 @@ fn own(throw: &Throw, instance: &Instance) -> Result<Option<Own>> {
         instance: instance.clone(),
         values: DVector::from_vec(values),
         information,
-        gain: (throw.fitted.deviance() - with.deviance()).max(0.0),
+        gain: throw.fitted.fall_to(&with).max(0.0),
         spare: with.numbers() - with.used(),
     }))
 }
@@ -230,9 +230,8 @@ fn significance(throws: &[Throw], known: &[&Own], delta: f64, count: f64) -> f64
     if throws.iter().all(|throw| throw.fitted.has_stated_noise()) {
         return ChiSquared::new(count).map_or(1.0, |chi| chi.sf(delta));
     }
-    let numbers: f64 = throws.iter().map(|throw| throw.fitted.numbers()).sum();
     let spare: f64 = known.iter().map(|own| own.spare).sum();
-    let f = (delta / numbers).exp_m1() * spare / count;
+    let f = (delta / spare).exp_m1() * spare / count;
     FisherSnedecor::new(count, spare.max(1.0)).map_or(1.0, |fisher| fisher.sf(f))
 }
 

@@ -111,7 +111,7 @@ pub(crate) fn looks(throws: &[Throw]) -> Result<(Vec<ChannelTest>, bool)> {
 
 pub(crate) fn reduced_chi2(throws: &[Throw]) -> Option<f64> {
     let stated = throws.iter().all(|throw| throw.fitted.has_stated_noise());
-    let chi2: f64 = throws.iter().map(|throw| throw.fitted.deviance()).sum();
+    let chi2: f64 = throws.iter().map(|throw| throw.fitted.chi2()).sum();
     let spare: f64 = throws.iter().map(|throw| throw.fitted.numbers() - throw.fitted.used()).sum();
     (stated && spare > 0.0).then(|| chi2 / spare)
 }

@@ -162,19 +162,32 @@ impl Fitted {
         size - after..size - after + free(acting.first..acting.first + acting.count)
     }
 
-    /// −2 ln L but for a constant: χ², with the tilt's prior, where the noise is stated; else, with
-    /// each channel's noise at its most likely, Σ n ln(RSS / n).
-    pub(crate) fn deviance(&self) -> f64 {
-        let solution = &self.best().solution;
+    /// χ², with the tilt's prior.
+    pub(crate) fn chi2(&self) -> f64 {
+        2.0 * self.best().solution.cost
+    }
+
+    /// By how much −2 ln L falls to `larger`, a model that holds this one: χ² where the noise is
+    /// stated; else, with each channel's noise at its most likely, Σ ν ln(RSS / RSS of `larger`),
+    /// where ν are the numbers that the larger fit leaves spare in the channel (the restricted
+    /// likelihood: a channel of which little is spare tells little).
+    pub(crate) fn fall_to(&self, larger: &Fitted) -> f64 {
         if self.stated.is_some() {
-            return 2.0 * solution.cost;
+            return self.chi2() - larger.chi2();
         }
-        let of = |(count, squares): (f64, f64), least: f64| match count > 0.0 {
-            true => count * (squares / count).max(least * least).ln(),
-            false => 0.0,
+        let of = |before: (f64, f64), after: (f64, f64), least: f64, spare: Option<f64>| {
+            let floor = |(count, squares): (f64, f64)| squares.max(count * least * least);
+            match before.0 > 0.0 {
+                true => spare.unwrap_or(0.0) * (floor(before) / floor(after)).ln(),
+                false => 0.0,
+            }
         };
-        of(positions(solution), LEAST_NOISE.position)
-            + of(turns(&self.refined, solution), LEAST_NOISE.orientation)
+        let [before, after] = [self, larger].map(|fitted| &fitted.best().solution);
+        let [turned, turned_after] =
+            [self, larger].map(|fitted| turns(&fitted.refined, &fitted.best().solution));
+        let KnownNoise { position_dof, orientation_dof, .. } = larger.noise;
+        of(positions(before), positions(after), LEAST_NOISE.position, position_dof)
+            + of(turned, turned_after, LEAST_NOISE.orientation, orientation_dof)
     }
 
     /// How many of the effect's free scalars the data depend on, beside all other unknowns.

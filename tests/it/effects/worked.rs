@@ -10,7 +10,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 #[test]
 fn the_worked_laws_are_good() {
-    for name in ["tether", "thrust", "coriolis"] {
+    for name in ["coriolis", "growing_force", "spring", "tether", "thrust", "wind"] {
         let path = Path::new(ROOT).join(format!("examples/effects/{name}.toml"));
         let effect = Effect::read(path).unwrap();
         assert_eq!(effect.name, name);

@@ -1,0 +1,160 @@
+//! One hidden effect: is it named, and what becomes of the errors once it is added?
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use smash::Result;
+
+use crate::answer::Answer;
+use crate::case::Case;
+use crate::fit::{Errors, Fit};
+use crate::table::{percent, pooled, spread};
+
+/// A case, what the diagnosis says of it, and what the right model does.
+pub struct Single {
+    kind: String,
+    pub answer: Answer,
+    is_first: bool,
+    is_in_set: bool,
+    is_of_class: bool,
+    base: Errors,
+    with: Errors,
+    /// Where the right effect doesn't come first.
+    pub failure: Option<String>,
+}
+
+impl Single {
+    /// # Errors
+    /// The case can't be reconstructed at all.
+    pub fn of(case: &Case) -> Result<Single> {
+        let answer = Answer::of(&case.scene)?;
+        let with = Fit::of(case, &case.effects)?;
+        let is_first = answer.is_first(case);
+        let failure = match is_first {
+            true => None,
+            false => Some(failure(case, &answer, &with)?),
+        };
+        Ok(Single {
+            kind: case.kind(),
+            is_first,
+            is_in_set: answer.is_in_set(case),
+            is_of_class: answer.is_of_class(case),
+            base: Fit::of(case, &[])?.errors(case),
+            with: with.errors(case),
+            answer,
+            failure,
+        })
+    }
+}
+
+/// More than this, in χ², is more than rounding.
+const WORSE: f64 = 0.1;
+
+/// A row on a case whose effect doesn't come first. The cause is the `search`, where the fit with
+/// the right effect is worse than one with its true parameters; the `data`, where the right model
+/// is no better than the one named; else the `rule` that decides between them.
+fn failure(case: &Case, answer: &Answer, with: &Fit) -> Result<String> {
+    let behind = with.bic() - answer.fit(case)?.bic();
+    let missed = match &case.true_effects {
+        Some(known) => with.deviance - Fit::of(case, known)?.deviance,
+        None => f64::NAN,
+    };
+    let cause = match () {
+        () if missed > WORSE => "search",
+        () if behind >= 0.0 => "data",
+        () => "rule",
+    };
+    Ok(format!(
+        "| {} | {} | {} | {} | {} | {behind:.1} | {missed:.1} | {cause} |",
+        case.labels().join(" + "),
+        case.name,
+        answer.in_words(),
+        if answer.is_in_set(case) { "yes" } else { "no" },
+        if answer.is_of_class(case) { "yes" } else { "no" },
+    ))
+}
+
+/// The tables of cases with one effect, in Markdown.
+///
+/// # Errors
+/// A case can't be reconstructed.
+pub fn tables(cases: &[Case]) -> Result<String> {
+    let singles: Vec<Single> = cases.par_iter().map(Single::of).collect::<Result<_>>()?;
+    let mut kinds: Vec<&str> = singles.iter().map(|single| single.kind.as_str()).collect();
+    kinds.sort();
+    kinds.dedup();
+    let of = |kind: &str| singles.iter().filter(|s| s.kind == kind).collect::<Vec<&Single>>();
+    let all: Vec<&Single> = singles.iter().collect();
+    let mut text = String::from(
+        "## Which effect is missing\n\n\
+         | hidden | scenes | detected | first | in the set | or of its class | answers |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
+    kinds.iter().for_each(|kind| text += &naming(kind, &of(kind)));
+    text += &naming("all", &all);
+    text += "\n## Errors without the effect and with it\n\n\
+         | hidden | χ² in its 95 % band | position / noise | orientation / noise | \
+         error of m without: median / 90 % | with | error of c without: median / 90 % | with | null |\n\
+         |---|---|---|---|---|---|---|---|---|\n";
+    kinds.iter().for_each(|kind| text += &errors(kind, &of(kind)));
+    text += &errors("all", &all);
+    let failures: Vec<&str> = singles.iter().filter_map(|s| s.failure.as_deref()).collect();
+    if !failures.is_empty() {
+        text += "\n## Not first\n\n\
+             | hidden | scene | answer | in the set | of its class | BIC behind | χ² missed | cause |\n\
+             |---|---|---|---|---|---|---|---|\n";
+        text += &failures.join("\n");
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+fn naming(kind: &str, singles: &[&Single]) -> String {
+    let share =
+        |is: fn(&Single) -> bool| percent(singles.iter().filter(|s| is(s)).count(), singles.len());
+    let mut answers: BTreeMap<String, usize> = BTreeMap::new();
+    for single in singles {
+        let words = single.answer.in_words();
+        let name = words.split('@').next().unwrap_or(&words);
+        let is_elsewhere = name == single.kind && !single.is_first;
+        *answers
+            .entry(format!("{name}{}", if is_elsewhere { " elsewhere" } else { "" }))
+            .or_default() += 1;
+    }
+    let mut answers: Vec<(String, usize)> = answers.into_iter().collect();
+    answers.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let answers: Vec<String> =
+        answers.iter().map(|(name, count)| format!("{name} {count}")).collect();
+    format!(
+        "| {kind} | {} | {} | {} | {} | {} | {} |\n",
+        singles.len(),
+        share(|s| s.answer.is_detected()),
+        share(|s| s.is_first),
+        share(|s| s.is_in_set),
+        share(|s| s.is_of_class),
+        if kind == "all" { String::new() } else { answers.join(", ") },
+    )
+}
+
+fn errors(kind: &str, singles: &[&Single]) -> String {
+    let bands: Vec<bool> = singles.iter().filter_map(|s| s.with.is_in_band()).collect();
+    let masses =
+        |pick: fn(&Single) -> &Errors| spread(singles.iter().filter_map(|s| pick(s).mass_ratio));
+    let restitutions =
+        |pick: fn(&Single) -> &Errors| spread(singles.iter().map(|s| pick(s).restitution));
+    // What isn't determined has no error: it is counted.
+    let is_null = |s: &&&Single| {
+        s.with.restitution.is_infinite() || s.with.mass_ratio.is_some_and(f64::is_infinite)
+    };
+    format!(
+        "| {kind} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
+        percent(bands.iter().filter(|is_in_band| **is_in_band).count(), bands.len()),
+        pooled(singles.iter().map(|s| s.with.position)),
+        pooled(singles.iter().filter_map(|s| s.with.orientation)),
+        masses(|s| &s.base),
+        masses(|s| &s.with),
+        restitutions(|s| &s.base),
+        restitutions(|s| &s.with),
+        singles.iter().filter(is_null).count(),
+    )
+}
