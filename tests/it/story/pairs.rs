@@ -15,8 +15,8 @@ fn sparse(seed: u64) -> SimulationSpec {
     SimulationSpec { observations: Sampling::Regular(regular), ..boxes(seed) }
 }
 
-fn tell(seed: u64, hidden: &[EffectSpec; 2]) {
-    let simulation = with(sparse(seed), hidden);
+fn tell(spec: SimulationSpec, hidden: &[EffectSpec; 2]) {
+    let simulation = with(spec, hidden);
     let scene = &simulation.scene;
     let what = format!("{} and {}", hidden[0].name, hidden[1].name);
     let improvement = smash::improve(scene, &RefinedOptions::default(), &[]).unwrap();
@@ -45,13 +45,14 @@ fn a_diagnosis_says_that_it_is_not_alone() {
 #[test]
 fn a_clock_and_a_wrong_scale() {
     let offset = effect("time_offset", Some("b"), &[("delay", &[0.02])]);
-    tell(1, &[offset, effect("gravity_scale", None, &[("s", &[0.96])])]);
+    tell(sparse(1), &[offset, effect("gravity_scale", None, &[("s", &[0.96])])]);
 }
 
 #[test]
+#[ignore = "half a minute: run it after a change of the search"]
 fn drag_on_the_path_of_one_and_on_the_spin_of_the_other() {
     let drag = effect("quadratic_drag", Some("b"), &[("k", &[0.3])]);
-    tell(4, &[drag, effect("spin_drag", Some("a"), &[("kappa", &[0.4])])]);
+    tell(boxes(4), &[drag, effect("spin_drag", Some("a"), &[("kappa", &[0.4])])]);
 }
 
 #[test]
@@ -63,5 +64,5 @@ fn a_tilt_and_a_wrong_pose() {
         Some("a"),
         &[("time", &[time_s]), ("shift", &[0.0, 0.04, 0.03]), ("turn", &[0.0, 0.0, 0.0])],
     );
-    tell(1, &[tilt, outlier]);
+    tell(sparse(1), &[tilt, outlier]);
 }

@@ -87,6 +87,7 @@ fn drop_key(scene: &mut Value, key: &str) {
 /// Poses that no flight meets: garbage gets an answer too.
 #[test]
 fn poses_that_make_no_sense_are_not_explained() {
+    smash::silence_solver_log();
     let spec = boxes(0);
     let mut scene = value(spec.clone());
     only_nearest(&mut scene, &spec, 4);
