@@ -10,7 +10,7 @@ use smash::files::{Output, print_bytes};
 use smash::{Result, Scene, diagnose, diagnose_throws};
 
 use super::method::Method;
-use super::table::{aligned, p_value, probability};
+use super::table::{aligned, decimals, p_value, probability};
 use super::typed::Typed;
 
 /// Finds which physical effect the model lacks, ranked, with the evidence
@@ -112,14 +112,16 @@ fn write_words(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
 
 fn row(candidate: &CandidateReport) -> Vec<String> {
     let held_out = match (candidate.heldout_rmse_before, candidate.heldout_rmse_after) {
-        (Some(before), Some(after)) => format!("{:.2} to {:.2}", 1e3 * before, 1e3 * after),
+        (Some(before), Some(after)) => {
+            format!("{} to {}", decimals(1e3 * before, 2), decimals(1e3 * after, 2))
+        }
         _ => "-".to_string(),
     };
     vec![
         candidate.label(),
         probability(candidate.probability),
         p_value(candidate.p_value),
-        format!("{:.1}", candidate.delta_chi2),
+        decimals(candidate.delta_chi2, 1),
         held_out,
     ]
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use smash::files::{Output, print_bytes, shell_word};
-use smash::reconstruct::{Preset, SegmentCriterion, reconstruct_with_progress};
+use smash::reconstruct::{Flag, Preset, SegmentCriterion, reconstruct_with_progress};
 use smash::{Reconstruction, Result, Scene};
 
 use super::method::Method;
@@ -45,6 +45,9 @@ impl Arguments {
         if let Some(output) = self.output.as_ref().filter(|_| is_file) {
             let output = shell_word(&output.to_string_lossy());
             steps.push(format!("smash compare {path} {output}    where it misses the poses"));
+        }
+        if is_file && result.flags.contains(&Flag::PoorFit) && result.preset == Preset::Refined {
+            steps.push(format!("smash diagnose {path}    which physics the model lacks"));
         }
         if is_file && !self.method.is_robust() && result.outliers.len() * 100 > poses(scene) {
             steps.push(format!(

@@ -107,7 +107,7 @@ fn com_offset() {
 
 #[test]
 fn friction() {
-    tell(box_on_floor(2), effect("friction", None, &[("mu", &[0.15])]), &["friction@a"]);
+    tell(box_on_floor(2), effect("friction", None, &[("mu", &[0.06])]), &[]);
 }
 
 #[test]

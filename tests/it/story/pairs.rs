@@ -9,8 +9,14 @@ use super::*;
 /// Pairs that are told here.
 const PAIRS: f64 = 3.0;
 
-fn tell(seed: u64, hidden: &[EffectSpec; 2]) {
-    let simulation = with(boxes(seed), hidden);
+/// Every fifth frame.
+fn sparse(seed: u64) -> SimulationSpec {
+    let regular = RegularSampling { interval: 5, frame_count: 90, gap: Some(5) };
+    SimulationSpec { observations: Sampling::Regular(regular), ..boxes(seed) }
+}
+
+fn tell(spec: SimulationSpec, hidden: &[EffectSpec; 2]) {
+    let simulation = with(spec, hidden);
     let scene = &simulation.scene;
     let what = format!("{} and {}", hidden[0].name, hidden[1].name);
     let improvement = smash::improve(scene, &RefinedOptions::default(), &[]).unwrap();
@@ -25,33 +31,38 @@ fn tell(seed: u64, hidden: &[EffectSpec; 2]) {
     assert_down_to_the_noise(scene, &improvement, &what);
     assert_right(&simulation, &improvement.result, &what);
     assert_replayed(scene, &improvement, &what);
+}
 
-    // The one alone isn't taken for all.
-    let diagnosis = smash::diagnose(scene, &RefinedOptions::default(), &[]).unwrap();
-    let told = &diagnosis.explanation;
-    assert!(told.contains("It isn't alone"), "{what}: {told}");
+/// The best single one isn't taken for all.
+#[test]
+fn a_diagnosis_says_that_it_is_not_alone() {
+    let offset = effect("time_offset", Some("b"), &[("delay", &[0.02])]);
+    let simulation = with(sparse(1), &[offset, effect("gravity_scale", None, &[("s", &[0.96])])]);
+    let diagnosis = smash::diagnose(&simulation.scene, &RefinedOptions::default(), &[]).unwrap();
+    assert!(diagnosis.explanation.contains("It isn't alone"), "{}", diagnosis.explanation);
 }
 
 #[test]
 fn a_clock_and_a_wrong_scale() {
     let offset = effect("time_offset", Some("b"), &[("delay", &[0.02])]);
-    tell(1, &[offset, effect("gravity_scale", None, &[("s", &[0.96])])]);
+    tell(sparse(1), &[offset, effect("gravity_scale", None, &[("s", &[0.96])])]);
 }
 
 #[test]
+#[ignore = "half a minute: run it after a change of the search"]
 fn drag_on_the_path_of_one_and_on_the_spin_of_the_other() {
     let drag = effect("quadratic_drag", Some("b"), &[("k", &[0.3])]);
-    tell(4, &[drag, effect("spin_drag", Some("a"), &[("kappa", &[0.4])])]);
+    tell(boxes(4), &[drag, effect("spin_drag", Some("a"), &[("kappa", &[0.4])])]);
 }
 
 #[test]
 fn a_tilt_and_a_wrong_pose() {
-    let time_s = stamp_s(&boxes(1), 0, 6);
+    let time_s = stamp_s(&sparse(1), 0, 4);
     let tilt = effect("gravity_tilt", None, &[("tilt1", &[0.08]), ("tilt2", &[-0.05])]);
     let outlier = effect(
         "outlier",
         Some("a"),
         &[("time", &[time_s]), ("shift", &[0.0, 0.04, 0.03]), ("turn", &[0.0, 0.0, 0.0])],
     );
-    tell(1, &[tilt, outlier]);
+    tell(sparse(1), &[tilt, outlier]);
 }

@@ -32,9 +32,6 @@ fn tell(spec: SimulationSpec, hidden: EffectSpec, known: &str) {
     assert_right(&simulation, &result, &typed);
 
     let further = requests(&[typed]);
-    let diagnosis = smash::diagnose(scene, &base, &further).unwrap();
-    assert_eq!(diagnosis.verdict, Verdict::Missing, "{}", diagnosis.explanation);
-    assert_eq!(diagnosis.candidates[0].effect, further[0].effect.name);
     let improvement = smash::improve(scene, &base, &further).unwrap();
     assert_eq!(names(&last(&improvement).with), [&further[0].effect.name]);
     assert!(is_in_band(&improvement.result, LAWS), "{:?}", improvement.result.fit);
