@@ -3,16 +3,16 @@
 
 use nalgebra::Vector3;
 
-use super::acting::{Acting, Instance};
+use super::acting::{Acting, Instance, possible};
 use super::fitted::Fitted;
 use super::gain::{gains, gains_without, linearised};
 use super::model::{has_plane, refined_scene};
 use super::optimum::Optimum;
 use super::parabolas::Parabolas;
 use super::solve::solve;
-use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
-use crate::effect::{Hook, Scan};
-use crate::reconstruct::Loss;
+use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns, launch};
+use crate::effect::{Effect, Hook, Scan};
+use crate::reconstruct::{Loss, solver_error};
 use crate::scene::{Gap, StaticPlane};
 use crate::{Result, Scene};
 
@@ -54,7 +54,12 @@ pub(super) fn starts(
         starts.iter_mut().for_each(|(unknowns, _)| touch(unknowns, plane));
     }
     match acting.instance.scan() {
-        None => starts.extend(beside_the_null(refined, acting, &starts[0])?),
+        None => {
+            starts.extend(beside_the_null(refined, acting, &starts[0])?);
+            if let Some(plane) = scene.plane().filter(|_| strikes(acting)) {
+                starts.extend(freed(nested, scene, plane, refined, acting).unwrap_or_default());
+            }
+        }
         Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)?),
         Some((_, place)) => {
             let mut scanned = scanned(nested, scene, &acting.instance)?;
@@ -156,13 +161,13 @@ fn beside_the_null(
     acting: &Acting,
     (unknowns, gap): &Start,
 ) -> Result<Vec<Start>> {
-    let strikes = acting.instance.effect.laws.iter().any(|(hook, _)| *hook == Hook::ImpulsePoint);
+    let strikes = strikes(acting);
     // One parameter alone has its slope; a product of two has none where both are zero.
     let is_product = acting.instance.effect.parameters.len() > 1;
     if !strikes && !(is_product && is_flat(refined, acting, unknowns, *gap)?) {
         return Ok(Vec::new());
     }
-    let away = away(refined, acting, unknowns);
+    let away = away(refined, acting, unknowns, 1.0);
     let mut starts = vec![(away.clone(), *gap)];
     if strikes && has_plane(refined) {
         let mut central = away;
@@ -174,6 +179,63 @@ fn beside_the_null(
         starts.push((central, *gap));
     }
     Ok(starts)
+}
+
+/// Whether the effect has an impulse at the contact.
+fn strikes(acting: &Acting) -> bool {
+    acting.instance.effect.laws.iter().any(|(hook, _)| *hook == Hook::ImpulsePoint)
+}
+
+/// Any jump in velocity and spin.
+const FREE_JUMP: &str = r#"
+name = "free_jump"
+title = "Any impulse at the collision"
+scope = "body"
+[parameters.P]
+unit = "m/s"
+null = [0.0, 0.0, 0.0]
+[parameters.S]
+unit = "m^2/s"
+null = [0.0, 0.0, 0.0]
+[law]
+impulse = "P"
+angular_impulse = "S"
+"#;
+/// Parts and multiples of the typical size that are tried with it.
+const SIZES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
+
+/// A strong impulse at the contact bends the model without it so far that rotations wrap: starts from
+/// a fit whose jump is free, with the contact point where that jump's line of action meets the plane,
+/// (x − p) × J = ΔL.
+fn freed(
+    nested: &Fitted,
+    scene: &Scene,
+    plane: &StaticPlane,
+    refined: &RefinedScene,
+    acting: &Acting,
+) -> Result<Vec<Start>> {
+    let jump = Effect::parse(FREE_JUMP, "free_jump")?;
+    let Some(instance) = possible(scene, &jump).into_iter().next() else { return Ok(Vec::new()) };
+    let free = nested.with_quickly(scene, &instance)?;
+    let best = free.best();
+    let launch = launch(&free.refined, &best.solution.unknowns).map_err(solver_error)?[0];
+    let mut unknowns = best.solution.unknowns.clone();
+    unknowns.parameters.truncate(acting.first);
+    unknowns.parameters.extend(acting.instance.null());
+    let motion = &unknowns.bodies[0];
+    let impulse = Vector3::from(launch.velocity_after) - Vector3::from(motion.velocity_before);
+    let spin = Vector3::from(launch.spin_after) - Vector3::from(motion.spin_before);
+    let normal = plane.normal_in_world.into_inner();
+    let on_line = Vector3::from(motion.position) + impulse.cross(&spin) / impulse.norm_squared();
+    let along = (plane.height_m - normal.dot(&on_line)) / normal.dot(&impulse);
+    let point = on_line + along * impulse;
+    if !point.iter().all(|x| x.is_finite()) {
+        return Ok(Vec::new());
+    }
+    unknowns.contact_point = point.into();
+    unknowns.impulse = (normal * normal.dot(&impulse)).into();
+    let at = |size: &f64| (away(refined, acting, &unknowns, *size), best.gap);
+    Ok(SIZES.iter().map(at).collect())
 }
 
 /// Whether nothing depends on one of the free parameters.
@@ -189,10 +251,15 @@ fn is_flat(
     Ok(columns.column_iter().any(|column| column.norm() == 0.0))
 }
 
-/// With the free parameters a typical size from where they are.
-fn away(refined: &RefinedScene, acting: &Acting, unknowns: &RefinedUnknowns) -> RefinedUnknowns {
+/// With the free parameters so many typical sizes from where they are.
+fn away(
+    refined: &RefinedScene,
+    acting: &Acting,
+    unknowns: &RefinedUnknowns,
+    size: f64,
+) -> RefinedUnknowns {
     let parameters = acting.instance.effect.parameters.iter();
-    let scales = parameters.flat_map(|p| p.null.iter().map(|_| p.scale));
+    let scales = parameters.flat_map(|p| p.null.iter().map(move |_| size * p.scale));
     let mut away = unknowns.clone();
     for (index, scale) in scales.enumerate() {
         let rule = &refined.parameters[acting.first + index];
