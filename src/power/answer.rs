@@ -63,7 +63,7 @@ pub(super) fn answer(
 
 /// The least sizes that are found in every second film, and in nine of ten.
 fn least_sizes(film: &Film, axis: &Axis, chance: &Chance) -> [Option<f64>; 2] {
-    let lambda = |size: f64| Ok(film.shown(&axis.effect(size))?.fitted.deviance());
+    let lambda = |size: f64| Ok(film.shown(&axis.effect(size))?.fitted.chi2());
     let mut near = axis.size;
     [EVERY_SECOND, NINE_OF_TEN].map(|power| {
         let target = noncentrality(chance.critical, chance.parameters, power);

@@ -45,7 +45,7 @@ impl Chance {
         let parameters = evidence.parameters;
         let poses = instance.is_of_a_pose().then_some(scanned);
         Ok(Chance {
-            lambda: fitted.deviance(),
+            lambda: fitted.chi2(),
             parameters,
             critical: critical_chi2(parameters, (scanned, tried), fitted.numbers(), poses),
             tried,
