@@ -88,4 +88,9 @@ impl Errors {
         let (chi2, distribution) = self.chi2.as_ref()?;
         Some((0.025..=0.975).contains(&distribution.cdf(*chi2)))
     }
+
+    /// Whether noise alone leaves so much in less than one fit of ten thousand.
+    pub fn is_stuck(&self) -> bool {
+        self.chi2.as_ref().is_some_and(|(chi2, distribution)| distribution.sf(*chi2) < 1e-4)
+    }
 }

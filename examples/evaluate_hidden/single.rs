@@ -51,8 +51,9 @@ impl Single {
 const WORSE: f64 = 0.1;
 
 /// A row on a case whose effect doesn't come first. The cause is the `search`, where the fit with
-/// the right effect is worse than one with its true parameters; the `data`, where the right model
-/// is no better than the one named; else the `rule` that decides between them.
+/// the right effect is worse than one with its true parameters, or leaves more than noise; the
+/// `data`, where the right model is no better than the one named; else the `rule` that decides
+/// between them.
 fn failure(case: &Case, answer: &Answer, with: &Fit) -> Result<String> {
     let behind = with.bic() - answer.fit(case)?.bic();
     let missed = match &case.true_effects {
@@ -60,7 +61,7 @@ fn failure(case: &Case, answer: &Answer, with: &Fit) -> Result<String> {
         None => f64::NAN,
     };
     let cause = match () {
-        () if missed > WORSE => "search",
+        () if missed > WORSE || with.errors(case).is_stuck() => "search",
         () if behind >= 0.0 => "data",
         () => "rule",
     };
