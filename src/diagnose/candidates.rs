@@ -95,7 +95,10 @@ pub(super) fn promising(
     order.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
     let best = scores[order[0]];
     let is_worth_it = |(rank, index): (usize, &usize)| {
-        rank < FEWEST_REFITTED || scores[*index] > WORTH * best.max(0.0)
+        rank < FEWEST_REFITTED
+            || scores[*index] > WORTH * best.max(0.0)
+            // Strong friction bends the model without it too far for slopes to tell.
+            || instances[*index].acts_at_the_contact()
     };
     let kept = order.iter().enumerate().filter(|(rank, index)| is_worth_it((*rank, index)));
     Ok(kept.map(|(_, index)| instances[*index].clone()).collect())

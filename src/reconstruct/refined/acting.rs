@@ -85,6 +85,11 @@ impl Instance {
         self
     }
 
+    /// Whether it has an impulse at the contact.
+    pub(crate) fn acts_at_the_contact(&self) -> bool {
+        self.effect.laws.iter().any(|(hook, _)| *hook == Hook::ImpulsePoint)
+    }
+
     /// Whether it is a property of the objects or of the camera, the same in every throw; not an
     /// event of one.
     pub(crate) fn is_of_all_throws(&self) -> bool {

@@ -11,7 +11,7 @@ use super::optimum::Optimum;
 use super::parabolas::Parabolas;
 use super::solve::solve;
 use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns, launch};
-use crate::effect::{Effect, Hook, Scan};
+use crate::effect::{Effect, Scan};
 use crate::reconstruct::{Loss, solver_error};
 use crate::scene::{Gap, StaticPlane};
 use crate::{Result, Scene};
@@ -56,7 +56,7 @@ pub(super) fn starts(
     match acting.instance.scan() {
         None => {
             starts.extend(beside_the_null(refined, acting, &starts[0])?);
-            if let Some(plane) = scene.plane().filter(|_| strikes(acting)) {
+            if let Some(plane) = scene.plane().filter(|_| acting.instance.acts_at_the_contact()) {
                 starts.extend(freed(nested, scene, plane, refined, acting).unwrap_or_default());
             }
         }
@@ -161,7 +161,7 @@ fn beside_the_null(
     acting: &Acting,
     (unknowns, gap): &Start,
 ) -> Result<Vec<Start>> {
-    let strikes = strikes(acting);
+    let strikes = acting.instance.acts_at_the_contact();
     // One parameter alone has its slope; a product of two has none where both are zero.
     let is_product = acting.instance.effect.parameters.len() > 1;
     if !strikes && !(is_product && is_flat(refined, acting, unknowns, *gap)?) {
@@ -179,11 +179,6 @@ fn beside_the_null(
         starts.push((central, *gap));
     }
     Ok(starts)
-}
-
-/// Whether the effect has an impulse at the contact.
-fn strikes(acting: &Acting) -> bool {
-    acting.instance.effect.laws.iter().any(|(hook, _)| *hook == Hook::ImpulsePoint)
 }
 
 /// Any jump in velocity and spin.
