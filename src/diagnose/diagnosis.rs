@@ -33,7 +33,12 @@ pub struct Diagnosis {
     pub candidates: Vec<CandidateReport>,
     /// How probable it is that nothing is missing, beside the candidates' probabilities.
     pub probability_of_nothing: f64,
-    /// Of an unknown effect: the force and torque that are left over, the clearest first.
+    /// Whether even the best candidate leaves more than noise: then it may only be the nearest that
+    /// the catalogue has.
+    #[serde(default)]
+    pub stays_structured: bool,
+    /// The force and torque that are left over, with the best candidate if one is missing, the
+    /// clearest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unexplained: Vec<Unexplained>,
     /// The answer in plain words.

@@ -68,6 +68,7 @@ pub fn diagnose_throws(
         reduced_chi2: reduced_chi2(&throws),
         candidates: reports,
         probability_of_nothing: weight(0.0) / total,
+        stays_structured: false,
         unexplained: Vec::new(),
         explanation: String::new(),
         advice: Vec::new(),

@@ -47,7 +47,14 @@ pub(super) fn diagnosis(
         }
         _ => Verdict::Missing,
     };
-    let stays_structured = rest.is_some_and(|rest| rest.is_structured) && second.is_none();
+    // A force that is left on top of the best says more than χ² of all poses together.
+    let unexplained = match (verdict, first) {
+        (Verdict::NothingMissing, _) => Vec::new(),
+        (Verdict::UnknownEffect, _) | (_, None) => unexplained(scene, fitted)?,
+        (Verdict::Missing, Some(first)) => unexplained(scene, &candidates[first].fitted)?,
+    };
+    let leaves_more = rest.is_some_and(|rest| rest.is_structured) || !unexplained.is_empty();
+    let stays_structured = first.is_some() && leaves_more && second.is_none();
     let (odds, none) = probabilities(&candidates);
     // What doesn't predict better never comes first.
     let mut order: Vec<usize> = (0..candidates.len()).collect();
@@ -67,10 +74,8 @@ pub(super) fn diagnosis(
         reduced_chi2: result.fit.reduced_chi2,
         candidates: reports,
         probability_of_nothing: none,
-        unexplained: match verdict {
-            Verdict::UnknownEffect => unexplained(scene, fitted)?,
-            _ => Vec::new(),
-        },
+        stays_structured,
+        unexplained,
         explanation: String::new(),
         advice: Vec::new(),
     };

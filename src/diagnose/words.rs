@@ -20,7 +20,13 @@ pub(super) fn explanation(
             let left: String = diagnosis.unexplained.iter().map(leftover).collect();
             unknown(model, best.filter(|best| best.stands_out)) + &left
         }
-        (Verdict::Missing, Some(best)) => missing(best, pair, stays_structured),
+        (Verdict::Missing, Some(best)) => {
+            let left: String = match stays_structured {
+                true => diagnosis.unexplained.iter().map(leftover).collect(),
+                false => String::new(),
+            };
+            missing(best, pair, stays_structured) + &left
+        }
         (Verdict::Missing, None) => String::new(),
     }
 }
