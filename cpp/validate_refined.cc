@@ -114,6 +114,9 @@ void CheckRefinedProblem(const RefinedScene& scene, const RefinedProblem& proble
       Refuse("an effect's parameter starts out of its bounds");
     }
   }
+  if (!(std::abs(problem.start.log_mass_ratio) <= kLargestLogMassRatio)) {
+    Refuse("a start that isn't finite");
+  }
   const double time_s = problem.start.collision_time_s;
   if (!(problem.earliest_s <= time_s && time_s <= problem.latest_s &&
         problem.earliest_s < problem.latest_s && std::isfinite(problem.earliest_s) &&
