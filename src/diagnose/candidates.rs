@@ -120,6 +120,9 @@ pub(super) fn candidate(
     let held_out = before.zip(held_out(&with)).map(|(before, after)| [before, after]);
     // What happens at one moment can't be told from the other poses.
     let predicts = instance.is_of_a_moment()
-        || held_out.is_none_or(|[before, after]| after.surprise < before.surprise);
+        || held_out.is_none_or(|[before, after]| {
+            let noise = without.noise.value;
+            after.in_sigma(noise) < before.in_sigma(noise)
+        });
     Some(Candidate { fitted: with, evidence, bic, held_out, predicts })
 }

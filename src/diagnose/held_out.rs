@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::reconstruct::refined::{Fitted, Linearised, linearised};
+use crate::scene::Noise;
 
 /// Blocks that a flight is cut into.
 const BLOCKS: usize = 3;
@@ -33,9 +34,19 @@ struct Row {
 pub(crate) struct HeldOut {
     /// Root mean square of the positions, m.
     pub(crate) position_rmse_m: f64,
-    /// −2 ln of the density that the predictions give to all poses, but for a constant: what is
-    /// predicted vaguely may be missed by more.
-    pub(crate) surprise: f64,
+    /// Root mean square of the orientations' components, rad; 0 without any.
+    orientation_rmse_rad: f64,
+    positions: f64,
+    turns: f64,
+}
+
+impl HeldOut {
+    /// Root mean square of all, in deviations of this noise.
+    pub(crate) fn in_sigma(&self, noise: Noise) -> f64 {
+        let squares = self.positions * (self.position_rmse_m / noise.position).powi(2)
+            + self.turns * (self.orientation_rmse_rad / noise.orientation).powi(2);
+        (squares / (self.positions + self.turns)).sqrt()
+    }
 }
 
 /// The prediction of a fitted model.
@@ -52,7 +63,8 @@ impl Tangent {
     }
 
     fn held_out(&self) -> HeldOut {
-        let (mut count, mut squares_m2, mut surprise) = (0.0, 0.0, 0.0);
+        // Count and sum of squares.
+        let (mut positions, mut turns) = ((0.0, 0.0), (0.0, 0.0));
         for block in &self.blocks {
             let rows: Vec<usize> = block.iter().map(|row| row.index).collect();
             let jacobian = self.linearised.jacobian.select_rows(&rows);
@@ -61,41 +73,32 @@ impl Tangent {
                 rows.iter().map(|&row| self.linearised.residuals[row]),
             );
             let predicted = predicted(&jacobian, &self.inverse, &residuals);
-            surprise += predicted.surprise;
-            for (row, residual) in block.iter().zip(predicted.residuals.iter()) {
-                surprise += 2.0 * row.std.ln();
-                if row.is_position {
-                    count += 1.0;
-                    squares_m2 += (row.std * residual).powi(2);
-                }
+            for (row, residual) in block.iter().zip(predicted.iter()) {
+                let channel = if row.is_position { &mut positions } else { &mut turns };
+                channel.0 += 1.0;
+                channel.1 += (row.std * residual).powi(2);
             }
         }
-        HeldOut { position_rmse_m: (squares_m2 / f64::max(count, 1.0)).sqrt(), surprise }
+        let rmse = |(count, squares): (f64, f64)| (squares / f64::max(count, 1.0)).sqrt();
+        HeldOut {
+            position_rmse_m: rmse(positions),
+            orientation_rmse_rad: rmse(turns),
+            positions: positions.0,
+            turns: turns.0,
+        }
     }
 }
 
-/// What the others say of a block.
-struct Predicted {
-    /// Over the noise.
-    residuals: DVector<f64>,
-    /// −2 ln of their density.
-    surprise: f64,
-}
-
-/// (1 − H)⁻¹ r, of covariance (1 − H)⁻¹; along what only the block itself tells there is no
-/// prediction, and no error.
-fn predicted(jacobian: &DMatrix<f64>, inverse: &DMatrix<f64>, r: &DVector<f64>) -> Predicted {
+/// (1 − H)⁻¹ r; along what only the block itself tells there is no prediction, and no error.
+fn predicted(jacobian: &DMatrix<f64>, inverse: &DMatrix<f64>, r: &DVector<f64>) -> DVector<f64> {
     let hat = jacobian * inverse * jacobian.transpose();
     let rest = DMatrix::identity(r.len(), r.len()) - 0.5 * (&hat + hat.transpose());
     let eigen = rest.symmetric_eigen();
-    let mut predicted = Predicted { residuals: DVector::zeros(r.len()), surprise: 0.0 };
+    let mut predicted = DVector::zeros(r.len());
     for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-        let along = vector.dot(r);
         if *value > UNPREDICTED {
-            predicted.residuals += vector * (along / value);
+            predicted += vector * (vector.dot(r) / value);
         }
-        let value = value.max(UNPREDICTED);
-        predicted.surprise += along * along / value - value.ln();
     }
     predicted
 }

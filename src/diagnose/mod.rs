@@ -73,22 +73,14 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
     // A score test that fails leaves all to be refitted.
     let promising =
         candidates::promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
-    let refitted = |chosen: &[Instance]| -> Vec<Candidate> {
-        let candidates = chosen.par_iter().filter_map(|instance| {
+    let mut candidates: Vec<Candidate> = promising
+        .par_iter()
+        .filter_map(|instance| {
             let with = fitted.with_quickly(scene, instance).ok()?;
             candidates::candidate(scene, fitted, with, instances.len(), before)
-        });
-        candidates.collect()
-    };
-    let by_bic = |a: &Candidate, b: &Candidate| a.bic.total_cmp(&b.bic);
-    let mut candidates = refitted(&promising);
-    candidates.sort_by(by_bic);
-    // Far from the null the scores foretell little: if none of these will do, another may.
-    if candidates.first().is_some_and(|best| Goodness::of(&best.fitted, &[]).is_structured) {
-        let others = instances.iter().filter(|instance| !promising.contains(instance));
-        candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
-        candidates.sort_by(by_bic);
-    }
+        })
+        .collect();
+    candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     candidates
 }
 
