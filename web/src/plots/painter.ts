@@ -1,0 +1,57 @@
+// Paints bands, lines and points of a residual plot on uPlot's canvas.
+
+import type uPlot from 'uplot';
+import { palette } from '../stage/palette';
+import type { PlotData } from './plot_data';
+import { RADIUS, trace } from './marks';
+
+/** Below the grid: the band of ±2 σ. */
+export function paintBand(plot: uPlot, data: PlotData): void {
+  if (!data.sigma) return;
+  const { left, width } = plot.bbox;
+  const [top, bottom] = [2, -2].map((times) => plot.valToPos(times * (data.sigma ?? 0), 'y', true));
+  plot.ctx.save();
+  plot.ctx.fillStyle = palette().band;
+  plot.ctx.fillRect(left, top, width, bottom - top);
+  plot.ctx.restore();
+}
+
+/** Above the grid: zero, the impact, and the points. */
+export function paintPoints(plot: uPlot, data: PlotData): void {
+  const { ctx: context, bbox } = plot;
+  const colours = palette();
+  const pixel = window.devicePixelRatio || 1;
+  context.save();
+  context.lineWidth = pixel;
+  context.strokeStyle = colours.faint;
+  const zero = plot.valToPos(0, 'y', true);
+  stroke(context, bbox.left, zero, bbox.left + bbox.width, zero);
+  if (data.impact !== null) {
+    const x = plot.valToPos(data.impact, 'x', true);
+    context.strokeStyle = colours.ink;
+    context.setLineDash([4 * pixel, 3 * pixel]);
+    stroke(context, x, bbox.top, x, bbox.top + bbox.height);
+    context.setLineDash([]);
+  }
+  for (const point of data.points) {
+    const [x, y] = [plot.valToPos(point.time, 'x', true), plot.valToPos(point.value, 'y', true)];
+    context.beginPath();
+    trace(context, point.segment, x, y, RADIUS * pixel);
+    context.fillStyle = point.segment === 'before' ? colours.before : colours.after;
+    context.fill();
+    if (!point.isOff) continue;
+    context.beginPath();
+    context.arc(x, y, 2.2 * RADIUS * pixel, 0, 2 * Math.PI);
+    context.strokeStyle = colours.alarm;
+    context.lineWidth = 2 * pixel;
+    context.stroke();
+  }
+  context.restore();
+}
+
+function stroke(context: CanvasRenderingContext2D, x0: number, y0: number, x1: number, y1: number): void {
+  context.beginPath();
+  context.moveTo(x0, y0);
+  context.lineTo(x1, y1);
+  context.stroke();
+}

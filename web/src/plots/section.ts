@@ -1,0 +1,50 @@
+// The residual plots of the shown model: by body, an axis a plot.
+
+import type { Clock } from '../clock';
+import { element } from '../element';
+import type { Model, Scene } from '../report';
+import { plotData } from './plot_data';
+import type { PlotData } from './plot_data';
+import { ResidualPlot } from './residual_plot';
+
+export class ResidualsSection {
+  readonly root = element('div', { class: 'residuals' });
+  private plots = new Map<string, ResidualPlot>();
+
+  constructor(private readonly clock: Clock) {}
+
+  show(scene: Scene, model: Model | null): void {
+    const times: [number, number] = [this.clock.start, this.clock.end];
+    const margin = 0.03 * (times[1] - times[0]);
+    const all = (model?.series ?? [])
+      .filter((series) => series.points.length > 0)
+      .map((series) => plotData(model as Model, series, [times[0] - margin, times[1] + margin]));
+    const isSame = all.length === this.plots.size && all.every((data) => this.plots.has(data.key));
+    if (isSame && all.length > 0) {
+      for (const data of all) this.plots.get(data.key)?.show(data);
+    } else {
+      this.rebuild(scene, model, all);
+    }
+  }
+
+  repaint(): void {
+    for (const plot of this.plots.values()) plot.repaint();
+  }
+
+  private rebuild(scene: Scene, model: Model | null, all: PlotData[]): void {
+    for (const plot of this.plots.values()) plot.end();
+    this.plots = new Map(all.map((data) => [data.key, new ResidualPlot(data, this.clock)]));
+    const groups = scene.bodies.map((body) => {
+      const own = all.filter((data) => data.body === body.name);
+      return element('section', { class: 'plots-of-body' },
+        element('h3', {}, body.name),
+        ...own.map((data) => this.plots.get(data.key)?.root ?? null),
+        own.length === 0 && element('p', { class: 'hint' }, 'No residuals: ', missing(model)));
+    });
+    this.root.replaceChildren(...groups);
+  }
+}
+
+function missing(model: Model | null): string {
+  return model?.residuals.reason ?? 'the result tells no motion to hold the poses against.';
+}

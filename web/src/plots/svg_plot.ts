@@ -1,0 +1,96 @@
+// The same plot as SVG, for files and for paper: light, and with its own explanation.
+
+import { short, significant } from '../numbers';
+import { svg } from '../svg';
+import { RADIUS, triangle } from './marks';
+import type { PlotData, PlotPoint } from './plot_data';
+
+const [WIDTH, HEIGHT] = [720, 260];
+const FRAME = { left: 64, top: 44, right: 708, bottom: 210 };
+const COLOURS = {
+  ink: '#1b1f24', faint: '#8a9099', grid: '#e4e6ea', band: '#e3e3e3',
+  before: '#0072b2', after: '#d55e00', alarm: '#000000',
+};
+
+export function drawnPlot(data: PlotData): SVGSVGElement {
+  const x = scale(data.times, FRAME.left, FRAME.right);
+  const y = scale(data.values, FRAME.bottom, FRAME.top);
+  const text = (words: string, at: Record<string, string | number>): SVGElement =>
+    svg('text', { fill: COLOURS.ink, 'font-size': 12, ...at }, words);
+  return svg('svg', {
+    xmlns: 'http://www.w3.org/2000/svg', viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    'font-family': 'system-ui, sans-serif', role: 'img', 'aria-label': `Residuals of ${data.title}`,
+  },
+    svg('rect', { width: WIDTH, height: HEIGHT, fill: '#ffffff' }),
+    text(`${data.title}: measured minus model, ${data.unit}`, { x: FRAME.left, y: 18, 'font-weight': 600 }),
+    text(data.finding, { x: FRAME.left, y: 35, fill: COLOURS.faint }),
+    band(data, y),
+    ...ticks(data.values).map((value) => gridLine(value, y(value))),
+    ...ticks(data.times).map((time) =>
+      text(`${short(time)} s`, { x: x(time), y: FRAME.bottom + 16, 'text-anchor': 'middle' })),
+    data.impact === null ? null : impactLine(x(data.impact)),
+    ...data.points.map((point) => mark(point, x(point.time), y(point.value))),
+    ...legend(data));
+}
+
+function scale([low, high]: [number, number], from: number, to: number): (value: number) => number {
+  return (value) => from + ((value - low) / (high - low || 1)) * (to - from);
+}
+
+/** Some four or five round numbers within. */
+function ticks([low, high]: [number, number]): number[] {
+  const rough = (high - low) / 5;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * ([1, 2, 5, 10].find((one) => one * power >= rough) ?? 10);
+  const made: number[] = [];
+  for (let at = Math.ceil(low / step); at * step <= high; at += 1) made.push(at * step);
+  return made;
+}
+
+function band(data: PlotData, y: (value: number) => number): SVGElement | null {
+  if (!data.sigma) return null;
+  const top = y(2 * data.sigma);
+  return svg('rect', {
+    x: FRAME.left, y: top, width: FRAME.right - FRAME.left, height: y(-2 * data.sigma) - top, fill: COLOURS.band,
+  });
+}
+
+function gridLine(value: number, y: number): SVGElement {
+  return svg('g', {},
+    svg('line', {
+      x1: FRAME.left, x2: FRAME.right, y1: y, y2: y, stroke: value === 0 ? COLOURS.faint : COLOURS.grid,
+    }),
+    svg('text', { x: FRAME.left - 6, y: y + 4, 'text-anchor': 'end', 'font-size': 12, fill: COLOURS.ink },
+      short(value)));
+}
+
+function impactLine(x: number): SVGElement {
+  return svg('line', {
+    x1: x, x2: x, y1: FRAME.top, y2: FRAME.bottom, stroke: COLOURS.ink, 'stroke-dasharray': '4 3',
+  });
+}
+
+function mark(point: PlotPoint, x: number, y: number): SVGElement {
+  const fill = COLOURS[point.segment];
+  const shape =
+    point.segment === 'before'
+      ? svg('circle', { cx: x, cy: y, r: RADIUS, fill })
+      : svg('polygon', { points: triangle(x, y, RADIUS).map((corner) => corner.map((v) => v.toFixed(2)).join()).join(' '), fill });
+  const ring = svg('circle', { cx: x, cy: y, r: 2.2 * RADIUS, fill: 'none', stroke: COLOURS.alarm, 'stroke-width': 2 });
+  return point.isOff ? svg('g', {}, shape, ring) : shape;
+}
+
+function legend(data: PlotData): SVGElement[] {
+  const y = HEIGHT - 14;
+  const at = (x: number, words: string): SVGElement =>
+    svg('text', { x, y: y + 4, 'font-size': 12, fill: COLOURS.ink }, words);
+  const point = { observation: 0, time: 0, value: 0, isOff: false };
+  return [
+    mark({ ...point, segment: 'before' }, FRAME.left + 4, y), at(FRAME.left + 14, 'before the impact'),
+    mark({ ...point, segment: 'after' }, FRAME.left + 134, y), at(FRAME.left + 144, 'after it'),
+    ...(data.sigma
+      ? [svg('rect', { x: FRAME.left + 208, y: y - 6, width: 16, height: 12, fill: COLOURS.band }),
+         at(FRAME.left + 230, `±2 σ = ±${significant(2 * data.sigma, 3)} ${data.unit}`)]
+      : []),
+  ];
+}

@@ -1,0 +1,63 @@
+// Which effect is missing: the answer in words, the candidates, what is left, what to film next.
+
+import { element } from '../element';
+import type { Child } from '../element';
+import { length, NONE, probability, pValue, significant, tuple } from '../numbers';
+import type { Candidate, Diagnosis, Unexplained } from '../report';
+import { table } from '../table';
+import { label } from '../words';
+import { parameterInWords } from './estimates';
+
+/** `adder` makes a button that adds an effect; a report has none. */
+export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): Child[] {
+  return [
+    element('p', { class: 'lead', 'data-testid': 'explanation' }, diagnosis.explanation),
+    diagnosis.candidates.length > 0 && candidates(diagnosis, adder),
+    element('p', { class: 'hint' },
+      `The probability that nothing is missing: ${probability(diagnosis.probability_of_nothing)}. ` +
+      'A p-value counts all candidates. Held out: how far the fit misses positions that it hasn’t seen, without and with the effect.'),
+    ...(diagnosis.unexplained ?? []).map(unexplained),
+    diagnosis.advice.length > 0 && element('div', {},
+      element('p', { class: 'label' }, 'Next'),
+      element('ul', { 'data-testid': 'advice' }, ...diagnosis.advice.map((one) => element('li', {}, one)))),
+  ];
+}
+
+function candidates(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): HTMLElement {
+  const columns = [
+    { head: 'candidate' }, { head: 'probability', isNumber: true }, { head: 'p-value', isNumber: true },
+    { head: 'Δχ²', isNumber: true }, { head: 'held out', isNumber: true }, { head: 'parameters' },
+    { head: 'can’t be told from' },
+  ];
+  const rows = diagnosis.candidates.map((candidate): Child[] => [
+    element('span', { class: candidate.stands_out ? 'stands-out' : null }, label(candidate)),
+    probability(candidate.probability), pValue(candidate.p_value), significant(candidate.delta_chi2, 4),
+    heldOut(candidate), parameters(candidate), candidate.indistinguishable_from.join(', ') || NONE,
+    ...(adder ? [adder(label(candidate))] : []),
+  ]);
+  return table('Candidates, the best first; bold ones stand out of the noise and predict better',
+    adder ? [...columns, { head: 'add' }] : columns, rows, 'candidates');
+}
+
+function heldOut(candidate: Candidate): string {
+  if (candidate.heldout_rmse_before === null || candidate.heldout_rmse_after === null) return NONE;
+  return `${length(candidate.heldout_rmse_before)} → ${length(candidate.heldout_rmse_after)}`;
+}
+
+function parameters(candidate: Candidate): string {
+  return Object.entries(candidate.parameters)
+    .map(([name, one]) => `${name} = ${parameterInWords(one)} ${one.unit}`.trim())
+    .join('; ');
+}
+
+function unexplained(force: Unexplained): HTMLElement {
+  const unit = force.kind === 'torque' ? 'm²/s² per kg' : 'm/s²';
+  const forms = force.forms.map((form): Child[] =>
+    [form.goes_with, `${significant(100 * form.share, 3)} %`, significant(form.factor), element('code', {}, form.law)]);
+  return element('div', { 'data-testid': 'unexplained' },
+    element('p', {},
+      `Left over on ${force.body}: a ${force.kind === 'torque' ? 'torque' : 'force'} of ${significant(force.rms)} ${unit} ` +
+      `(root mean square), on average ${tuple(force.mean)} ${unit}; χ² would fall by ${significant(force.delta_chi2, 4)}.`),
+    forms.length > 0 && table('What it goes with, the best first: laws to try',
+      [{ head: 'it goes with' }, { head: 'explains', isNumber: true }, { head: 'factor, SI', isNumber: true }, { head: 'as a law' }], forms));
+}

@@ -1,0 +1,111 @@
+// The shown model's numbers with their 95 % intervals, its effects, doubts and phases.
+
+import { element } from '../element';
+import type { Child } from '../element';
+import { angle, decimalsFor, fixed, length, NONE, significant, tuple, withDeviation } from '../numbers';
+import type { ActiveEffect, Estimate, Model, ParameterEstimate, Vector } from '../report';
+import { table } from '../table';
+import { label } from '../words';
+
+export function estimates(model: Model): Child[] {
+  const { result } = model;
+  return [
+    scalars(model),
+    ...(result.effects.length > 0 ? [effects(result.effects)] : []),
+    bodies(model),
+    noise(model),
+    ...alternatives(model),
+    phases(model),
+  ];
+}
+
+function scalars(model: Model): HTMLElement {
+  const { result } = model;
+  const row = (name: string, estimate: Estimate, unit: string): Child[] => [
+    name, withDeviation(estimate.value, estimate.std), interval(estimate), unit, estimate.reason ?? '',
+  ];
+  const plain = (name: string, value: Vector | null, unit: string, why: string): Child[] =>
+    [name, tuple(value), '', unit, value === null ? why : ''];
+  const rows = [
+    ...(result.mass_ratio ? [row('mass ratio m_b / m_a', result.mass_ratio, '')] : []),
+    row('restitution c', result.restitution, ''),
+    row('collision time t_c', result.collision_time, 's'),
+    plain('impulse on the first body J', result.impulse, 'N·s per kg of it', ''),
+    plain('contact point x_c', result.contact_point, 'm', 'no spin tells where the impulse passed'),
+    plain('normal', result.normal, '', 'there was no impulse'),
+  ];
+  return table('Estimates: value ± σ, and the interval that holds the truth in 95 of 100 collisions',
+    [{ head: 'quantity' }, { head: 'value ± σ', isNumber: true }, { head: '95 % interval', isNumber: true },
+     { head: 'unit' }, { head: 'note' }], rows, 'estimates');
+}
+
+function interval(estimate: Estimate): string {
+  if (!estimate.interval_95) return NONE;
+  const decimals = decimalsFor(estimate.value ?? 0, estimate.std);
+  return estimate.interval_95.map((end) => fixed(end, decimals)).join(' to ');
+}
+
+function effects(all: ActiveEffect[]): HTMLElement {
+  const rows = all.flatMap((effect) =>
+    Object.entries(effect.parameters).map(([name, parameter]): Child[] =>
+      [label(effect), name, parameterInWords(parameter), parameter.unit, parameter.reason ?? '']));
+  return table('Effects in this model, and their parameters',
+    [{ head: 'effect' }, { head: 'parameter' }, { head: 'value ± σ', isNumber: true }, { head: 'unit' }, { head: 'note' }],
+    rows, 'effects');
+}
+
+/** `0.118 ± 0.0016`; of a vector each number with its own. */
+export function parameterInWords(parameter: ParameterEstimate): string {
+  const { value, std } = parameter;
+  if (value === null) return NONE;
+  if (typeof value === 'number') return withDeviation(value, typeof std === 'number' ? std : null);
+  return value.map((one, i) => withDeviation(one, Array.isArray(std) ? std[i] : null)).join(', ');
+}
+
+function bodies(model: Model): HTMLElement {
+  const rows = model.result.bodies.flatMap((body): Child[][] => [
+    [body.name, 'velocity before', tuple(body.velocity_before), 'm/s'],
+    ['', 'velocity after', tuple(body.velocity_after), 'm/s'],
+    ['', 'spin before', tuple(body.angular_velocity_before), 'rad/s'],
+    ['', 'spin after', tuple(body.angular_velocity_after), 'rad/s'],
+    ['', 'position', tuple(body.position), 'm'],
+  ]);
+  const reasons = model.result.bodies.filter((body) => body.reason)
+    .map((body) => element('p', { class: 'hint' }, `${body.name}: ${body.reason}`));
+  return element('div', {},
+    table('The bodies at the collision (x, y, z of the world)',
+      [{ head: 'body' }, { head: 'quantity' }, { head: 'value', isNumber: true }, { head: 'unit' }], rows, 'bodies'),
+    ...reasons);
+}
+
+function noise(model: Model): HTMLElement {
+  const { noise, fit } = model.result;
+  const said = noise
+    ? `Noise, one σ: ${length(noise.position)} a coordinate` +
+      (noise.orientation === null ? '' : `, ${angle(noise.orientation)} an axis`) +
+      (noise.estimated ? ', estimated from the residuals.' : ', as stated.')
+    : 'This method has no noise model, hence no standard deviations.';
+  const chi2 = fit.chi2 === null ? '' : ` χ² = ${significant(fit.chi2, 4)} with ${fit.dof} degrees of freedom.`;
+  return element('p', {}, said, chi2);
+}
+
+function alternatives(model: Model): HTMLElement[] {
+  const all = model.result.alternatives ?? [];
+  if (all.length === 0) return [];
+  return [table('Other solutions that are nearly as good',
+    [{ head: 'differs in' }, { head: 'Δχ²', isNumber: true }, { head: 'mass ratio', isNumber: true },
+     { head: 'restitution', isNumber: true }, { head: 'collision time, s', isNumber: true }],
+    all.map((one) => [one.differs_in, significant(one.delta_chi2), significant(one.mass_ratio, 4),
+      significant(one.restitution, 4), significant(one.collision_time, 5)]))];
+}
+
+function phases(model: Model): HTMLElement {
+  const rows = model.result.phases.map((phase): Child[] => [
+    phase.name, significant(phase.cost_initial), significant(phase.cost_final), phase.iterations,
+    phase.seconds === null ? NONE : significant(phase.seconds * 1000, 2),
+  ]);
+  return element('details', {}, element('summary', {}, 'How the solver got there'),
+    table(`Phases of the ${model.result.preset} solver`,
+      [{ head: 'phase' }, { head: 'cost at its start', isNumber: true }, { head: 'at its end', isNumber: true },
+       { head: 'iterations', isNumber: true }, { head: 'ms', isNumber: true }], rows, 'phases'));
+}

@@ -1,0 +1,53 @@
+// How the error fell, effect by effect.
+
+import { element } from '../element';
+import type { Child } from '../element';
+import { angle, length, NONE, pValue, significant } from '../numbers';
+import type { Improvement, Rung } from '../report';
+import { save } from '../save';
+import { svgFile } from '../svg';
+import { table } from '../table';
+import { ladderPlot } from './ladder_plot';
+
+const VERDICTS = {
+  nothing_missing: 'Nothing is missing that these poses could show.',
+  missing: 'With the last rung nothing more is missing that these poses could show.',
+  unknown_effect: 'Something is left that no effect of the catalogue explains.',
+};
+
+export function ladder(improvement: Improvement): Child[] {
+  const plot = ladderPlot(improvement.ladder);
+  const dropped = improvement.dropped;
+  return [
+    element('p', {}, VERDICTS[improvement.verdict]),
+    element('figure', { class: 'plot' },
+      element('figcaption', {},
+        element('span', { class: 'plot-title' }, 'Error by rung, relative to the start'),
+        element('span', { class: 'savers' }, element('button', {
+          type: 'button', class: 'small', 'aria-label': 'Save this plot as SVG', 'data-testid': 'save-ladder',
+          onclick: () => save('ladder.svg', 'image/svg+xml', svgFile(ladderPlot(improvement.ladder))),
+        }, 'SVG'))),
+      plot,
+      element('p', { class: 'hint' },
+        'Shorter bars are better. An effect that is real shortens the held-out bar, too: it predicts poses that the fit hasn’t seen.')),
+    table('The ladder: each rung adds an effect to those above it',
+      [{ head: 'model' }, { head: 'p-value', isNumber: true }, { head: 'positions', isNumber: true },
+       { head: 'held out', isNumber: true }, { head: 'orientations', isNumber: true }, { head: 'χ² / dof', isNumber: true },
+       { head: 'mass ratio', isNumber: true }, { head: 'restitution', isNumber: true }],
+      improvement.ladder.map(row), 'ladder'),
+    dropped.length > 0 && element('p', {}, `Added on the way, and superfluous in the end: ${dropped.join(', ')}.`),
+  ];
+}
+
+function row(rung: Rung): Child[] {
+  return [
+    rung.added === null ? startInWords(rung) : `+ ${rung.added}`,
+    pValue(rung.p_value), length(rung.position_rmse), length(rung.heldout_position_rmse),
+    rung.orientation_rmse === null ? NONE : angle(rung.orientation_rmse),
+    significant(rung.reduced_chi2), significant(rung.mass_ratio, 4), significant(rung.restitution, 4),
+  ];
+}
+
+function startInWords(rung: Rung): string {
+  return rung.with.length === 0 ? 'base model' : `base + ${rung.with.join(' + ')}`;
+}

@@ -1,0 +1,36 @@
+// The books of the shown model: what was conserved.
+
+import { element } from '../element';
+import type { Child } from '../element';
+import { NONE, significant, tuple, withDeviation } from '../numbers';
+import type { LedgerEntry, Model } from '../report';
+import { table } from '../table';
+import { quantityInWords } from '../words';
+
+export function ledger(model: Model): Child[] {
+  const { about, lines } = model.residuals.ledger;
+  let last: string | null | undefined;
+  const rows = lines.map((line): Child[] => {
+    const isNew = line.body !== last;
+    last = line.body;
+    return [
+      isNew ? (line.body ?? 'all together') : '', quantityInWords(line.quantity).words,
+      entry(line.before), entry(line.after), entry(line.change),
+      line.change_in_sigma === null ? NONE : `${significant(line.change_in_sigma, 2)} σ`, line.unit,
+    ];
+  });
+  return [
+    element('p', { class: 'hint' },
+      `Angular momentum is about ${tuple(about)} m. One impulse at one point keeps both momenta of all together, ` +
+      'and about that point each body’s own angular momentum. The energy lost is the restitution’s.'),
+    table('The books: before, after, and the difference, per kg of the first body',
+      [{ head: 'body' }, { head: 'quantity' }, { head: 'before', isNumber: true }, { head: 'after', isNumber: true },
+       { head: 'after − before', isNumber: true }, { head: 'in σ', isNumber: true }, { head: 'unit' }], rows, 'ledger'),
+  ];
+}
+
+function entry({ value, std }: LedgerEntry): string {
+  if (value === null) return NONE;
+  if (value.length === 1) return withDeviation(value[0], std[0]);
+  return tuple(value);
+}

@@ -1,0 +1,99 @@
+// The first glance: what this is, whether the model fits, what is missing.
+
+import { element } from '../element';
+import type { Child } from '../element';
+import { angle, length, significant, withDeviation, withUnit } from '../numbers';
+import type { Estimate, Model, Report } from '../report';
+import { flagInWords, label } from '../words';
+
+export function summary(report: Report, model: Model | null): HTMLElement[] {
+  if (model === null) return [element('p', {}, 'This report holds no result.')];
+  return [verdict(report, model), keyNumbers(model), ...flags(model)];
+}
+
+/** In one sentence whether the model fits, in another what is missing. */
+function verdict(report: Report, model: Model): HTMLElement {
+  const { diagnosis, improvement } = report;
+  const isBase = model.result.effects.length === 0;
+  const missing: Child =
+    diagnosis && sameEffects(diagnosis.model.map(label), model)
+      ? diagnosis.explanation
+      : improvement && improvement.ladder.length > 0 && isBase && improvement.verdict !== 'nothing_missing'
+        ? `Missing: ${improvement.ladder.map((rung) => rung.added).filter(Boolean).join(', ')}.`
+        : null;
+  const fits = fit(report, model);
+  return element('div', { class: `verdict ${fits.isGood === false ? 'bad' : 'good'}`, 'data-testid': 'verdict' },
+    element('p', { class: 'lead' }, fits.words),
+    missing && element('p', {}, missing),
+    ...findings(model));
+}
+
+function sameEffects(labels: string[], model: Model): boolean {
+  const own = model.result.effects.map(label);
+  return own.length === labels.length && own.every((one) => labels.includes(one));
+}
+
+interface FitInWords {
+  words: string;
+  isGood: boolean | null;
+}
+
+function fit(report: Report, model: Model): FitInWords {
+  const { residuals, result } = model;
+  const rmse = residuals.position_rmse ?? result.fit.position_rmse;
+  const noise = report.noise;
+  const size = `${length(rmse)} a coordinate${noise ? `, ${significant(rmse / noise.position, 2)} σ of the noise` : ''}`;
+  const isStructured = residuals.structure.some((test) => test.fails);
+  if (result.flags.includes('poor_fit') || isStructured) {
+    return { words: `The model misses the measured poses by more than noise: ${size}.`, isGood: false };
+  }
+  if (residuals.structure.length === 0) {
+    return { words: `The model misses the measured poses by ${size}.`, isGood: null };
+  }
+  return { words: `The model meets the measured poses to their noise: ${size}.`, isGood: true };
+}
+
+function findings(model: Model): Child[] {
+  const [...all] = model.residuals.findings;
+  if (all.length === 0) return [];
+  const list = (from: string[]): HTMLElement => element('ul', { class: 'findings' }, ...from.map((f) => element('li', {}, f)));
+  const rest = all.slice(3);
+  return [
+    element('p', { class: 'label' }, 'Where it fails, the clearest first'),
+    list(all.slice(0, 3)),
+    rest.length > 0 && element('details', {}, element('summary', {}, `${rest.length} more`), list(rest)),
+  ];
+}
+
+function keyNumbers(model: Model): HTMLElement {
+  const { result } = model;
+  const numbers: [string, string][] = [];
+  if (result.mass_ratio) numbers.push(['mass ratio', estimate(result.mass_ratio, '')]);
+  numbers.push(['restitution', estimate(result.restitution, '')]);
+  numbers.push(['collision time', estimate(result.collision_time, 's')]);
+  const turn = result.fit.orientation_rmse;
+  numbers.push(['error of the fit',
+    length(result.fit.position_rmse) + (turn === null ? '' : `, ${angle(turn)}`)]);
+  if (result.fit.reduced_chi2 !== null) {
+    numbers.push(['χ² per degree of freedom', significant(result.fit.reduced_chi2)]);
+  }
+  const effects = result.effects.map(label).join(', ');
+  numbers.push(['model', effects === '' ? 'base' : `base + ${effects}`]);
+  return element('dl', { class: 'key-numbers', 'data-testid': 'key-numbers' },
+    ...numbers.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
+}
+
+function estimate(value: Estimate, unit: string): string {
+  if (value.value === null) return 'not told';
+  return withUnit(withDeviation(value.value, value.std), unit);
+}
+
+function flags(model: Model): HTMLElement[] {
+  if (model.result.flags.length === 0) return [];
+  const items = model.result.flags.map((flag) => {
+    const { meaning, advice } = flagInWords(flag);
+    return element('li', {}, meaning, advice === '' ? '' : element('span', { class: 'hint' }, ` Mend: ${advice}.`));
+  });
+  return [element('div', { class: 'flags', 'data-testid': 'flags' },
+    element('p', { class: 'label' }, 'Doubts'), element('ul', {}, ...items))];
+}

@@ -1,0 +1,43 @@
+// The measured poses as outlines: all of them faint, those of the moment strong.
+
+import { Group } from 'three';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
+import { threeTurn } from '../motion';
+import type { Body, Outlier } from '../report';
+import { outline } from './outline';
+import type { Palette } from './palette';
+
+export class Poses extends Group {
+  private readonly strong: LineMaterial;
+  private readonly marked: LineMaterial;
+  private readonly ordinary: LineMaterial;
+  private readonly drawn: { time: number; isOff: boolean; lines: LineSegments2 }[] = [];
+
+  constructor(body: Body, outliers: Outlier[], colours: Palette) {
+    super();
+    this.strong = new LineMaterial({ color: colours.ink, linewidth: 2.2 });
+    this.marked = new LineMaterial({ color: colours.alarm, linewidth: 1.6 });
+    // Many poses overlap: the more there are, the fainter each.
+    const opacity = Math.max(0.12, 0.5 - body.observations.length / 100);
+    this.ordinary = new LineMaterial({ color: colours.ink, linewidth: 1, transparent: true, opacity });
+    const geometry = outline(body.shape);
+    for (const pose of body.observations) {
+      const isOff = outliers.some((o) => o.body === body.name && Math.abs(o.time - pose.time) < 1e-9);
+      const lines = new LineSegments2(geometry, isOff ? this.marked : this.ordinary);
+      lines.position.set(...pose.position);
+      if (pose.orientation) lines.quaternion.copy(threeTurn(pose.orientation));
+      this.drawn.push({ time: pose.time, isOff, lines });
+      this.add(lines);
+    }
+  }
+
+  showAt(time: number): void {
+    const nearest = Math.min(...this.drawn.map((pose) => Math.abs(pose.time - time)));
+    for (const pose of this.drawn) {
+      const isNear = Math.abs(pose.time - time) <= nearest;
+      pose.lines.material = isNear ? this.strong : pose.isOff ? this.marked : this.ordinary;
+      pose.lines.renderOrder = isNear ? 2 : 1;
+    }
+  }
+}
