@@ -9,7 +9,9 @@ use super::{Estimate, RESULT_SCHEMA, Reconstruction};
 use crate::files::{display_name, read_text};
 use crate::json::decode;
 use crate::rigid_body::quaternion::to_wxyz;
+use crate::scene::Setting;
 use crate::scene::values::{check_range, unit_quaternion};
+use crate::words::listed;
 use crate::{Error, Result};
 
 /// Far beyond any collision, and far enough from overflow that squares stay finite.
@@ -74,7 +76,32 @@ impl Reconstruction {
                 *wxyz = to_wxyz(&unit_quaternion(&place, *wxyz)?);
             }
         }
+        if let Some(setting) = &self.setting {
+            check_setting(&self, setting)?;
+        }
         Ok(self)
+    }
+}
+
+/// Checks that `setting` is in order, and can be of this result.
+fn check_setting(result: &Reconstruction, setting: &Setting) -> Result<()> {
+    setting.scene("setting", &result.scene)?;
+    let mend = "reconstruct the scene again";
+    let of_result = result.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
+    let of_setting = setting.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
+    if of_setting != of_result {
+        let problem =
+            format!("are {}, but the result moves {}", listed(&of_setting), listed(&of_result));
+        return Err(Error::invalid("setting.bodies", problem).mend(mend));
+    }
+    let first_s = setting.bodies.iter().map(|body| body.seen[0]).fold(f64::INFINITY, f64::min);
+    let last_s = setting.bodies.iter().map(|body| body.seen[1]).fold(f64::NEG_INFINITY, f64::max);
+    match result.collision_time.value {
+        Some(time_s) if !(first_s..=last_s).contains(&time_s) => {
+            let problem = format!("is {time_s} s, but poses are from {first_s} s to {last_s} s");
+            Err(Error::invalid("collision_time.value", problem).mend(mend))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{ActiveEffect, Flag, Intervals, SegmentCriterion};
+use crate::scene::Setting;
 
 /// The value of a result file's field `schema`.
 pub const RESULT_SCHEMA: &str = "smash.result/1";
@@ -65,6 +66,10 @@ pub struct Reconstruction {
     pub flags: Vec<Flag>,
     /// What looked odd in the scene.
     pub warnings: Vec<String>,
+    /// Where and when the collision was seen: with it the motion can be flown again without the
+    /// scene. Missing in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub setting: Option<Setting>,
 }
 
 /// How a scene is solved.

@@ -70,16 +70,23 @@ fn check_bodies(bodies: &[BodyFile]) -> Result<()> {
             return Err(Error::invalid("bodies", problem).mend(wanted));
         }
     }
-    for (index, body) in bodies.iter().enumerate() {
-        let place = format!("bodies[{index}].name");
-        check_name(&place, &body.name)?;
-        if body.name.is_empty() {
+    let names = bodies.iter().enumerate();
+    check_names(names.map(|(index, body)| (format!("bodies[{index}].name"), &body.name)))
+}
+
+/// Each name, with its place: not empty, and no other body's.
+pub(super) fn check_names<'a>(names: impl Iterator<Item = (String, &'a String)>) -> Result<()> {
+    let mut known: Vec<&String> = Vec::new();
+    for (place, name) in names {
+        check_name(&place, name)?;
+        if name.is_empty() {
             return Err(Error::invalid(place, "is empty").mend("give the body a name, such as `a`"));
         }
-        if bodies[..index].iter().any(|other| other.name == body.name) {
-            let problem = format!("{} is the name of two bodies", quoted(&body.name));
+        if known.contains(&name) {
+            let problem = format!("{} is the name of two bodies", quoted(name));
             return Err(Error::invalid(place, problem).mend("give each body a name of its own"));
         }
+        known.push(name);
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ pub(crate) mod file;
 mod gaps;
 mod order;
 mod read;
+mod setting;
 mod units;
 pub(crate) mod values;
 mod warn;
@@ -17,6 +18,7 @@ mod warn;
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};
 pub use gaps::Gap;
 pub(crate) use gaps::gaps_between;
+pub use setting::{Setting, SettingBody, SettingCamera, SettingPlane};
 
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 

@@ -12,6 +12,7 @@ mod docs;
 mod doubts;
 mod effects;
 mod examples;
+mod export;
 mod free_rotation;
 mod import;
 mod installation;

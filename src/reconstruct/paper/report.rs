@@ -79,6 +79,7 @@ pub(super) fn reconstruction(
         fit,
         phases: solved.phases.clone(),
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
+        setting: Some(scene.setting()),
     })
 }
 

@@ -106,6 +106,7 @@ pub(crate) fn reconstruction(
         fit,
         phases: fitted.phases.clone(),
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
+        setting: Some(scene.setting()),
     })
 }
 
