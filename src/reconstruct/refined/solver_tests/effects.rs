@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use super::{BALL, BOX, BRICK, COLLISION_S, Case, TIMES_S};
 use crate::bridge::flight_reference::ffi::difference_effects;
 use crate::bridge::refined::ffi::{FlownState, fly, solve_refined};
-use crate::effect::{Effect, Need, Scope, catalogue, find};
+use crate::effect::{Effect, Need, Scan, Scope, catalogue, find};
 use crate::reconstruct::refined::acting::Instance;
 
 fn instance(effect: &Effect, body: Option<usize>) -> Instance {
@@ -38,13 +38,16 @@ impl Case {
     }
 }
 
-/// The parameters of `effect` a part of their scale from their nulls; times at a pose.
+/// The parameters of `effect` a part of their scale from their nulls; times of poses at one, of events
+/// between two.
 fn near_null(effect: &Effect, part: f64, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut values = Vec::new();
     for parameter in &effect.parameters {
         for null in &parameter.null {
-            values.push(match parameter.unit.to_string().as_str() {
-                "s" if parameter.scan.is_some() && parameter.name == "time" => TIMES_S[1],
+            values.push(match parameter.scan {
+                Some(Scan::ObservationTimes) => TIMES_S[1],
+                // At a pose the step, and with it the integration's error, jumps.
+                Some(Scan::GapTimes) => TIMES_S[1] + 0.03,
                 _ => null + part * parameter.scale * random.random_range(0.1..1.0),
             });
         }
