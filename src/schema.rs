@@ -9,6 +9,7 @@ use crate::improve::Improvement;
 use crate::json::pretty;
 use crate::power::Power;
 use crate::reconstruct::Reconstruction;
+use crate::report::Report;
 use crate::scene::SceneFile;
 use crate::simulate::{SimulationSpec, Truth};
 
@@ -26,6 +27,8 @@ pub enum SchemaKind {
     Diagnosis,
     /// A ladder of effects: `smash.improvement/1`
     Improvement,
+    /// What the page of a report shows: `smash.report/1`
+    Report,
     /// What a planned film could show: `smash.power/1`
     Power,
     /// A law that the base model lacks (TOML)
@@ -48,6 +51,7 @@ pub fn schema(kind: SchemaKind) -> String {
         SchemaKind::Comparison => generator.into_root_schema_for::<Comparison>(),
         SchemaKind::Diagnosis => generator.into_root_schema_for::<Diagnosis>(),
         SchemaKind::Improvement => generator.into_root_schema_for::<Improvement>(),
+        SchemaKind::Report => generator.into_root_schema_for::<Report>(),
         SchemaKind::Power => generator.into_root_schema_for::<Power>(),
         SchemaKind::Effect => generator.into_root_schema_for::<EffectFile>(),
         SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),

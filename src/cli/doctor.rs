@@ -31,6 +31,8 @@ struct Health {
     ceres: String,
     /// Whether a scene that is built in could be reconstructed.
     solver_works: bool,
+    /// Whether `smash report` has its page.
+    has_page: bool,
     dependencies: Vec<Dependency>,
     /// The command that installs what is missing.
     install: Option<String>,
@@ -39,7 +41,7 @@ struct Health {
 #[derive(Serialize)]
 struct Dependency {
     package: &'static str,
-    /// What it is for: to build smash, or to check the style of its source.
+    /// What it is for: to build smash, to test it, or to check the style of its source.
     work: &'static str,
     purpose: String,
     /// Where it was found, in readable letters; `None` when it is missing.
@@ -85,6 +87,7 @@ impl Health {
             version: env!("CARGO_PKG_VERSION"),
             ceres: smash::ceres_version(),
             solver_works,
+            has_page: smash::report::has_page(),
             dependencies,
             install,
         }
@@ -96,7 +99,15 @@ impl Health {
             true => "The solver works.".into(),
             false => "The solver doesn't work.".into(),
         });
-        for (work, title) in [("build", "To build it:"), ("style", "To check its style:")] {
+        lines.push(match self.has_page {
+            true => "The page of reports is built in.".into(),
+            false => {
+                "It was built without the page of reports: install Node, and build again.".into()
+            }
+        });
+        for (work, title) in
+            [("build", "To build it:"), ("test", "To test it:"), ("style", "To check its style:")]
+        {
             lines.push(format!("\n{title}"));
             lines.extend(self.dependencies.iter().filter(|d| d.work == work).map(|d| d.in_words()));
         }

@@ -13,6 +13,7 @@ mod method;
 mod power;
 mod progress;
 mod reconstruct;
+mod report;
 mod schema;
 mod simulate;
 mod summary;
@@ -41,6 +42,7 @@ enum Command {
     Compare(compare::Arguments),
     Diagnose(diagnose::Arguments),
     Improve(improve::Arguments),
+    Report(report::Arguments),
     Power(power::Arguments),
     Effects(effects::Arguments),
     Import(import::Arguments),
@@ -59,6 +61,7 @@ pub fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Improve(arguments) => improve::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
         Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),

@@ -1,6 +1,6 @@
 //! What was typed, for the commands that a person may type next.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use smash::Result;
 use smash::effect::EffectRequest;
@@ -29,6 +29,12 @@ impl Typed {
             options: method.flags(),
             effects: effects.collect::<Result<_>>()?,
         })
+    }
+
+    /// Of a command that takes a scene and nothing else.
+    pub fn of_scene(scene: &Path) -> Typed {
+        let scenes = vec![shell_word(&scene.to_string_lossy())];
+        Typed { scenes, options: String::new(), effects: Vec::new() }
     }
 
     /// A line of advice with the scene's own path for SCENE, and effects as they were typed.

@@ -115,7 +115,7 @@ pub(super) struct Point {
     /// In m or rad.
     pub(super) value: f64,
     /// The pose's number among those of its side, and the axis there.
-    pose: usize,
+    pub(super) pose: usize,
     along: nalgebra::Vector3<f64>,
 }
 

@@ -18,6 +18,7 @@ mod leverage;
 mod plot;
 mod randomness;
 mod residuals;
+mod series;
 mod side_by_side;
 mod yardstick;
 
@@ -31,6 +32,7 @@ pub use findings::findings;
 pub use ledger::{Ledger, LedgerEntry, LedgerLine};
 pub use plot::{Plot, plots};
 pub use randomness::{Pattern, RandomnessTest, TestName};
+pub use series::{ResidualPoint, ResidualSeries, series};
 
 use crate::{Reconstruction, Result, Scene};
 

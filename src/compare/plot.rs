@@ -3,10 +3,8 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::channels::{Point, points};
-use super::residuals::{Side, sides};
-use super::yardstick::{Yardstick, Yardsticks};
-use super::{Axis, Channel, Segment, identity};
+use super::series::{ResidualSeries, series};
+use super::{Axis, Channel, Segment};
 use crate::{Reconstruction, Result, Scene};
 
 /// Of Okabe and Ito's colours, told apart by the colour-blind too; shapes tell them as well.
@@ -36,18 +34,16 @@ type Sheet<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// # Errors
 /// As [`super::channels`].
 pub fn plots(scene: &Scene, name: &str, result: &Reconstruction) -> Result<Vec<Plot>> {
-    identity::check(scene, result)?;
-    let (Some(sides), Some(time_s)) = (sides(scene, result)?, result.collision_time.value) else {
-        return Ok(Vec::new());
-    };
-    let yardsticks = Yardsticks::new(scene, result, &sides);
-    let plots = scene.bodies().iter().enumerate().map(|(index, body)| {
-        let of_body: Vec<&Side> = sides.iter().filter(|side| side.body_index == index).collect();
+    let Some(collision_time_s) = result.collision_time.value else { return Ok(Vec::new()) };
+    let all = series(scene, result)?;
+    let plots = scene.bodies().iter().map(|body| {
         let picture = Picture {
             title: format!("{name}: {}, poses minus model", body.name),
-            collision_time_s: time_s,
-            columns: [Channel::Position, Channel::Orientation]
-                .map(|channel| panels(scene, &of_body, channel, &yardsticks, time_s)),
+            collision_time_s,
+            columns: [Channel::Position, Channel::Orientation].map(|channel| {
+                let of_column = all.iter().filter(|s| s.body == body.name && s.channel == channel);
+                of_column.map(Panel::new).collect()
+            }),
         };
         Plot { body: body.name.clone(), svg: picture.svg() }
     });
@@ -70,30 +66,22 @@ struct Panel {
     series: [Vec<(f64, f64)>; 2],
 }
 
-fn panels(
-    scene: &Scene,
-    sides: &[&Side],
-    channel: Channel,
-    yardsticks: &Yardsticks,
-    collision_time_s: f64,
-) -> Vec<Panel> {
-    let scale = match channel {
-        Channel::Position => 1e3,
-        Channel::Orientation => 1_f64.to_degrees(),
-    };
-    let sigma = yardsticks.of(channel).map(|Yardstick { sigma, .. }| scale * sigma);
-    let of_segment = |axis, segment| {
-        let sides = sides.iter().filter(|side| side.segment == segment);
-        let points = sides.flat_map(|side| points(scene, side, axis, collision_time_s));
-        points.map(|Point { time_s, value, .. }| (time_s, scale * value)).collect::<Vec<_>>()
-    };
-    let axes = Axis::ALL.into_iter().filter(|axis| axis.channel() == channel);
-    let panels = axes.map(|axis| Panel {
-        axis,
-        sigma,
-        series: [Segment::Before, Segment::After].map(|segment| of_segment(axis, segment)),
-    });
-    panels.filter(|panel| panel.series.iter().any(|series| !series.is_empty())).collect()
+impl Panel {
+    fn new(drawn: &ResidualSeries) -> Panel {
+        let scale = match drawn.channel {
+            Channel::Position => 1e3,
+            Channel::Orientation => 1_f64.to_degrees(),
+        };
+        let of_segment = |segment| {
+            let points = drawn.points.iter().filter(|point| point.segment == segment);
+            points.map(|point| (point.time, scale * point.value)).collect()
+        };
+        Panel {
+            axis: drawn.axis,
+            sigma: drawn.sigma.map(|sigma| scale * sigma),
+            series: [Segment::Before, Segment::After].map(of_segment),
+        }
+    }
 }
 
 impl Picture {

@@ -139,6 +139,21 @@ impl Scene {
         (!moved.gaps().is_empty()).then_some(moved)
     }
 
+    /// The scene as if each body were annotated at these times in s, all in one place: for what only
+    /// asks when.
+    pub(crate) fn sampled_at(&self, times_s: Vec<Vec<f64>>) -> Scene {
+        let mut sampled = self.clone();
+        for (body, times_s) in sampled.bodies.iter_mut().zip(times_s) {
+            let sample = |time_s| Observation {
+                time_s,
+                position_in_world: Vector3::zeros(),
+                world_from_body: Some(UnitQuaternion::identity()),
+            };
+            body.observations = times_s.into_iter().map(sample).collect();
+        }
+        sampled
+    }
+
     /// Puts the warnings in the terms of what the scene was made of.
     pub(crate) fn retell_warnings(&mut self, retold: impl Fn(&str) -> String) {
         for warning in &mut self.warnings {

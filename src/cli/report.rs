@@ -1,0 +1,117 @@
+//! `smash report`: one page to look at.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use smash::effect::EffectRequest;
+use smash::files::{Output, display_name, print_bytes, shell_word};
+use smash::improve::Improvement;
+use smash::reconstruct::{Options, Preset, RefinedOptions};
+use smash::report::{page, report};
+use smash::{Reconstruction, Result, Scene, diagnose, improve, reconstruct};
+
+use super::typed::Typed;
+
+/// Writes one page to look at: the collision in 3D, residuals, what is missing, all numbers
+///
+/// It needs no network and no other file. It holds the results side by side, and asks what the base
+/// model lacks, as `smash diagnose` and `smash improve` do. Without any results it shows the base
+/// model, and the best that could be found.
+#[derive(Args)]
+pub struct Arguments {
+    /// The scene (smash.scene/1), or - for standard input
+    scene: PathBuf,
+    /// Results of this scene (smash.result/1), the main one first
+    #[arg(value_name = "RESULT")]
+    results: Vec<PathBuf>,
+    /// Where to write the page (HTML), or - for standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Print the page's data (smash.report/1) as JSON instead of words
+    #[arg(long)]
+    json: bool,
+}
+
+/// Reads, asks, writes, tells.
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let inputs: Vec<&Path> =
+        arguments.results.iter().chain([&arguments.scene]).map(PathBuf::as_path).collect();
+    let output = Output::check(&arguments.output, &inputs)?;
+    let scene = Scene::read(&arguments.scene)?;
+    super::warn(scene.warnings());
+    let read =
+        |path: &PathBuf| Ok((display_name(path, "standard input"), Reconstruction::read(path)?));
+    let mut results = arguments.results.iter().map(read).collect::<Result<Vec<_>>>()?;
+    let name = arguments.scene.display().to_string();
+    let (options, further) = (RefinedOptions::default(), own_effects(&results)?);
+    let mut diagnosis =
+        diagnose(&scene, &options, &further).map_err(|error| error.in_file(&name))?;
+    let improvement = improve(&scene, &options, &further).map_err(|error| error.in_file(&name))?;
+    if results.is_empty() {
+        results = first_and_last(&scene, &improvement)?;
+    }
+    let typed = Typed::of_scene(&arguments.scene);
+    for line in &mut diagnosis.advice {
+        *line = typed.completed(line);
+    }
+    let mut report = report(&scene, &results, Some(diagnosis), Some(improvement))?;
+    super::warn(&report.warnings);
+    report.commands = commands(arguments, &results);
+    output.write(page(&report)?.as_bytes())?;
+    match output.is_standard_output() {
+        // Standard output carries the page already.
+        true => Ok(()),
+        false if arguments.json => print_bytes(report.to_json().as_bytes()),
+        false => print_bytes(in_words(arguments, &results).as_bytes()),
+    }
+}
+
+/// Effects that stand in the results with their laws: candidates beyond the catalogue.
+fn own_effects(results: &[(String, Reconstruction)]) -> Result<Vec<EffectRequest>> {
+    let mut all: Vec<EffectRequest> = Vec::new();
+    for active in results.iter().flat_map(|(_, result)| &result.effects) {
+        if active.definition.is_none() {
+            continue;
+        }
+        let effect = active.effect()?.clone();
+        if !all.iter().any(|known| known.effect == effect) {
+            all.push(EffectRequest { effect, body: None, fixed: Default::default() });
+        }
+    }
+    Ok(all)
+}
+
+/// The base model, and the top of the ladder if there is one.
+fn first_and_last(
+    scene: &Scene,
+    improvement: &Improvement,
+) -> Result<Vec<(String, Reconstruction)>> {
+    let base = reconstruct(scene, &Options::default())?;
+    let mut results = vec![("base model".to_string(), base)];
+    if let Some(top) = improvement.ladder.last().filter(|rung| !rung.with.is_empty()) {
+        let name = format!("with {}", top.with.join(" and "));
+        results.insert(0, (name, improvement.result.clone()));
+    }
+    Ok(results)
+}
+
+/// What makes the report again.
+fn commands(arguments: &Arguments, results: &[(String, Reconstruction)]) -> Vec<String> {
+    let word = |path: &Path| shell_word(&path.to_string_lossy());
+    let scene = word(&arguments.scene);
+    let made = arguments.results.iter().zip(results).map(|(path, (_, result))| {
+        let preset = if result.preset == Preset::Paper { " --preset paper" } else { "" };
+        let with = result.effects.iter().map(|one| format!(" --with {}", shell_word(&one.label())));
+        let with: String = with.collect();
+        format!("smash reconstruct {scene}{preset}{with} -o {}", word(path))
+    });
+    let results: String = arguments.results.iter().map(|path| format!(" {}", word(path))).collect();
+    let report = format!("smash report {scene}{results} -o {}", word(&arguments.output));
+    made.chain([format!("smash diagnose {scene}"), format!("smash improve {scene}"), report])
+        .collect()
+}
+
+fn in_words(arguments: &Arguments, results: &[(String, Reconstruction)]) -> String {
+    let names: Vec<&str> = results.iter().map(|(name, _)| name.as_str()).collect();
+    format!("{} shows {}: open it in a browser\n", arguments.output.display(), names.join(", "))
+}
