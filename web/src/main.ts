@@ -3,6 +3,8 @@
 import { element } from './element';
 import type { Report } from './report';
 import { ReportPage } from './report_page';
+import { showStudio } from './studio/studio_page';
+import type { StudioState } from './studio_state';
 
 const page = document.getElementById('page') as HTMLElement;
 start(page, embedded());
@@ -20,6 +22,10 @@ function start(root: HTMLElement, data: unknown): void {
   const schema = typeof data === 'object' && data !== null && 'schema' in data ? data.schema : null;
   if (schema === 'smash.report/1') {
     new ReportPage(root).show(data as Report);
+    return;
+  }
+  if (schema === 'smash.studio/1') {
+    showStudio(root, data as StudioState);
     return;
   }
   root.replaceChildren(

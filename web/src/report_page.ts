@@ -5,7 +5,8 @@ import { element, refill } from './element';
 import type { Child } from './element';
 import { Keys } from './keys';
 import { ResidualsSection } from './plots/section';
-import type { Model, Report } from './report';
+import type { PoseActs } from './plots/pose_acts';
+import type { Diagnosis, Model, Report } from './report';
 import { diagnosisSection } from './sections/diagnosis';
 import { estimates } from './sections/estimates';
 import { ladder } from './sections/ladder';
@@ -16,12 +17,23 @@ import { summary } from './sections/summary';
 import { StageSection } from './stage/section';
 import { themeSwitch } from './theme';
 
+/** What makes the page alive: the studio's parts, each at its place. */
+export interface Live {
+  top: HTMLElement[];
+  model: HTMLElement;
+  plotTools: HTMLElement;
+  sections: HTMLElement[];
+  acts: PoseActs;
+  adder: (effect: string) => HTMLElement;
+  missingStatus: HTMLElement;
+}
+
 export class ReportPage {
   readonly clock = new Clock();
   private report: Report | null = null;
   private chosen = 0;
   private stage: StageSection | null = null;
-  private readonly residuals = new ResidualsSection(this.clock);
+  private readonly residuals: ResidualsSection;
   private readonly title = element('h1');
   private readonly subtitle = element('p', { class: 'subtitle' });
   private readonly summary = element('section', { 'aria-label': 'Summary' });
@@ -34,34 +46,45 @@ export class ReportPage {
   private readonly warnings = section('Warnings');
   private readonly repeat = section('Make it again');
 
-  constructor(root: HTMLElement) {
+  constructor(root: HTMLElement, private readonly live: Live | null = null) {
+    this.residuals = new ResidualsSection(this.clock, live?.acts ?? null);
     const keys = new Keys(this.clock, () => this.stage);
     root.replaceChildren(
       element('header', {},
         element('div', {}, this.title, this.subtitle),
         element('div', { class: 'row' }, themeSwitch(() => this.repaint()), keys.button)),
-      this.summary, this.choice, this.look,
-      ...[this.missing, this.estimates, this.ledger, this.compared, this.warnings, this.repeat].map((one) => one.root),
+      ...(live ? [...live.top, this.summary, live.model] : [this.summary]),
+      this.choice, this.look, this.missing.root, ...(live?.sections ?? []),
+      ...[this.estimates, this.ledger, this.compared, this.warnings, this.repeat].map((one) => one.root),
       keys.dialog);
     window.addEventListener('beforeprint', openAll);
   }
 
   show(report: Report): void {
     this.report = report;
-    this.chosen = Math.min(this.chosen, Math.max(0, report.models.length - 1));
+    this.chosen = 0;
     document.title = `${report.scene.name} · smash`;
     this.title.textContent = report.scene.name;
     this.subtitle.textContent = whatItIs(report);
     if (this.stage === null) {
       this.stage = new StageSection(report.scene, this.clock);
-      this.look.replaceChildren(this.stage.root, this.residuals.root);
+      this.look.replaceChildren(this.stage.root,
+        element('div', {}, ...(this.live ? [this.live.plotTools] : []), this.residuals.root));
     }
     this.showModel();
     this.compared.fill(report.models.length > 1 ? sideBySide(report) : []);
-    this.missing.fill(this.whatIsMissing(report));
+    if (this.live === null) this.missing.fill(this.whatIsMissing(report));
     this.warnings.fill(report.warnings.length === 0 ? [] : [
       element('ul', {}, ...report.warnings.map((one) => element('li', {}, one)))]);
     this.repeat.fill(repeat(report));
+  }
+
+  /** What is missing of the shown model, as far as it is known; `status` says what isn't. */
+  diagnosed(diagnosis: Diagnosis | null, status: Child[]): void {
+    if (this.report === null) return;
+    this.report.diagnosis = diagnosis;
+    refill(this.summary, ...summary(this.report, this.model));
+    this.missing.fill([...status, ...(this.live ? [this.live.missingStatus] : []), ...this.whatIsMissing(this.report)]);
   }
 
   private get model(): Model | null {
@@ -95,7 +118,7 @@ export class ReportPage {
   private whatIsMissing(report: Report): Child[] {
     const { diagnosis, improvement } = report;
     return [
-      ...(diagnosis ? diagnosisSection(diagnosis) : []),
+      ...(diagnosis ? diagnosisSection(diagnosis, this.live?.adder) : []),
       ...(improvement && improvement.ladder.length > 0 ? [element('h3', {}, 'The ladder'), ...ladder(improvement)] : []),
     ];
   }

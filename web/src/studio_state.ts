@@ -58,7 +58,7 @@ export type Action =
   | { do: 'law'; text: string; effect: string }
   | { do: 'mark'; body: string; observation: number; wrong: boolean }
   | { do: 'time'; body: string; observation: number; time: number }
-  | { do: 'noise'; position: number; orientation: number }
+  | { do: 'noise'; position?: number; orientation?: number }
   | { do: 'undo' }
   | { do: 'redo' }
   | { do: 'go'; variant: number }

@@ -12,8 +12,9 @@ const READING: Record<string, [positive: string, shows: string]> = {
   across_spin_upward: ['tilted about the other axis across its spin', 'a wrong inertia'],
 };
 
-/** How to read a plot along `axis` of `body`. */
-export function reading(body: string, axis: string): string {
+/** How to read a plot along `axis` of `body`; of one that fails, too, what that hints at. */
+export function reading(body: string, axis: string, fails: boolean): string {
   const [positive, shows] = READING[axis] ?? ['off in the positive sense', 'something the model lacks'];
-  return `Measured minus model. Above zero: ${body} is ${positive}. A pattern here hints at ${shows}.`;
+  const hint = fails ? ` This hints at ${shows}.` : '';
+  return `Measured minus model. Above zero: ${body} is ${positive}. Grey: ±2 σ.${hint}`;
 }

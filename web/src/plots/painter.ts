@@ -37,16 +37,25 @@ export function paintPoints(plot: uPlot, data: PlotData): void {
     const [x, y] = [plot.valToPos(point.time, 'x', true), plot.valToPos(point.value, 'y', true)];
     context.beginPath();
     trace(context, point.segment, x, y, RADIUS * pixel);
-    context.fillStyle = point.segment === 'before' ? colours.before : colours.after;
-    context.fill();
+    context.fillStyle = context.strokeStyle = point.segment === 'before' ? colours.before : colours.after;
+    context.lineWidth = 1.2 * pixel;
+    if (point.isMarked) strike(context, x, y, 2 * RADIUS * pixel);
+    else context.fill();
     if (!point.isOff) continue;
     context.beginPath();
-    context.arc(x, y, 2.2 * RADIUS * pixel, 0, 2 * Math.PI);
+    context.arc(x, y, 2 * RADIUS * pixel, 0, 2 * Math.PI);
     context.strokeStyle = colours.alarm;
-    context.lineWidth = 2 * pixel;
+    context.lineWidth = 1.2 * pixel;
     context.stroke();
   }
   context.restore();
+}
+
+/** The outline of a point that is left out, crossed. */
+function strike(context: CanvasRenderingContext2D, x: number, y: number, reach: number): void {
+  context.stroke();
+  stroke(context, x - reach, y - reach, x + reach, y + reach);
+  stroke(context, x - reach, y + reach, x + reach, y - reach);
 }
 
 function stroke(context: CanvasRenderingContext2D, x0: number, y0: number, x1: number, y1: number): void {

@@ -2,7 +2,9 @@
 
 import { DEGREES, fixed, significant } from '../numbers';
 import type { ChannelTest, Model, Series, Segment } from '../report';
+import { singleOutliers } from '../outliers';
 import { reading } from './axes';
+import type { PoseActs } from './pose_acts';
 
 export interface PlotPoint {
   observation: number;
@@ -11,6 +13,8 @@ export interface PlotPoint {
   segment: Segment;
   /** Too far off to be noise. */
   isOff: boolean;
+  /** Left out of the fit by the user. */
+  isMarked: boolean;
 }
 
 export interface PlotData {
@@ -31,18 +35,24 @@ export interface PlotData {
   values: [number, number];
 }
 
-export function plotData(model: Model, series: Series, times: [number, number]): PlotData {
+export function plotData(model: Model, series: Series, times: [number, number], acts: PoseActs | null): PlotData {
   const isTurn = series.channel === 'orientation';
   const scale = isTurn ? DEGREES : 1000;
-  const off = model.residuals.outliers.filter(
+  const off = singleOutliers(model).filter(
     (outlier) => outlier.body === series.body && outlier.channel === series.channel,
   );
-  const points = series.points.map((point) => ({
-    ...point,
-    value: point.value * scale,
-    isOff: off.some((outlier) => Math.abs(outlier.time - point.time) < 1e-9),
-  }));
   const sigma = series.sigma === null ? null : series.sigma * scale;
+  const points = series.points.map((point) => {
+    const value = point.value * scale;
+    // A pose that is off may be well in place along this axis.
+    const isOut = sigma === null || Math.abs(value) > 2 * sigma;
+    return {
+      ...point,
+      value,
+      isOff: isOut && off.some((outlier) => Math.abs(outlier.time - point.time) < 1e-9),
+      isMarked: acts?.isMarked(series.body, point.observation) ?? false,
+    };
+  });
   const tests = model.residuals.structure.filter(
     (test) => test.body === series.body && test.channel === series.axis,
   );
@@ -51,7 +61,7 @@ export function plotData(model: Model, series: Series, times: [number, number]):
     body: series.body,
     channel: series.channel,
     title: `${series.body}, ${series.label}`,
-    reading: reading(series.body, series.axis),
+    reading: reading(series.body, series.axis, tests.some((test) => test.fails)),
     finding: findings(tests),
     fails: tests.some((test) => test.fails),
     unit: isTurn ? '°' : 'mm',
@@ -64,11 +74,13 @@ export function plotData(model: Model, series: Series, times: [number, number]):
 }
 
 function findings(tests: ChannelTest[]): string {
-  const words = tests.map((test) => {
-    const size = `${significant(test.rmse_in_sigma, 2)} σ`;
-    return test.fails ? `${test.segment}: ${test.pattern}, ${size}` : `${test.segment}: like noise, ${size}`;
-  });
-  return words.join('; ');
+  const size = (test: ChannelTest): string => `${significant(test.rmse_in_sigma, 2)} σ`;
+  if (tests.length > 0 && !tests.some((test) => test.fails)) {
+    return `like noise: ${tests.map((test) => `${size(test)} ${test.segment}`).join(', ')}`;
+  }
+  return tests
+    .map((test) => `${test.fails ? test.pattern : 'like noise'} of ${size(test)} ${test.segment}`)
+    .join(', ');
 }
 
 /** Even about zero, with room, and never tighter than the band. */
@@ -82,6 +94,6 @@ function range(values: number[], sigma: number | null): [number, number] {
 export function pointInWords(data: PlotData, point: PlotPoint): string {
   const value = data.unit === '°' ? `${significant(point.value)}°` : `${significant(point.value)} mm`;
   const sigmas = data.sigma ? ` (${significant(point.value / data.sigma, 2)} σ)` : '';
-  const off = point.isOff ? ', an outlier' : '';
-  return `pose ${point.observation + 1} at ${fixed(point.time, 4)} s: ${value}${sigmas}${off}`;
+  const off = point.isMarked ? ', marked wrong' : point.isOff ? ', an outlier' : '';
+  return `pose ${point.observation} at ${fixed(point.time, 4)} s: ${value}${sigmas}${off}`;
 }

@@ -10,9 +10,11 @@ import { svgFile } from '../svg';
 import { paintBand, paintPoints } from './painter';
 import type { PlotData, PlotPoint } from './plot_data';
 import { pointInWords } from './plot_data';
+import { Pointer } from './pointer';
+import type { PoseActs } from './pose_acts';
 import { drawnPlot } from './svg_plot';
 
-const HEIGHT = 150;
+const HEIGHT = 132;
 
 export class ResidualPlot {
   readonly root: HTMLElement;
@@ -23,24 +25,25 @@ export class ResidualPlot {
   private readonly readout = element('p', { class: 'plot-readout', 'aria-live': 'off' });
   private readonly cursor = element('div', { class: 'plot-cursor', 'data-testid': 'plot-cursor' });
   private readonly paper = element('div', { class: 'plot-paper' });
+  private isTelling = false;
   private readonly resized: ResizeObserver;
   private readonly unwatch: () => void;
   private readonly print = (): void => this.paper.replaceChildren(drawnPlot(this.data));
 
-  constructor(private data: PlotData, private readonly clock: Clock) {
+  constructor(private data: PlotData, private readonly clock: Clock, acts: PoseActs | null) {
     const holder = element('div', { class: 'plot-canvas' });
     const readingId = freshId('reading');
     this.reading.id = readingId;
     this.root = element('figure', { class: 'plot', 'data-testid': 'residual-plot', 'data-key': data.key },
-      element('figcaption', {}, this.title, this.finding, this.savers()),
-      holder, this.paper, this.readout, this.reading);
+      element('figcaption', {}, this.title, this.finding, this.savers()), this.reading,
+      holder, this.paper, this.readout);
     this.plot = new uPlot(this.options(holder), columns(data), holder);
     const { over } = this.plot;
     over.append(this.cursor);
     over.tabIndex = 0;
     over.setAttribute('role', 'img');
     over.setAttribute('aria-describedby', readingId);
-    over.addEventListener('pointermove', (event) => this.hover(event));
+    new Pointer(this.plot, clock, () => this.data, acts, (words) => this.readOut(words));
     over.addEventListener('keydown', (event) => this.step(event));
     this.resized = new ResizeObserver(() => this.fit(holder));
     this.resized.observe(holder);
@@ -122,12 +125,6 @@ export class ResidualPlot {
     this.follow(this.clock.time.value);
   }
 
-  private hover(event: PointerEvent): void {
-    const box = this.plot.over.getBoundingClientRect();
-    this.clock.pause();
-    this.clock.go(this.plot.posToVal(event.clientX - box.left, 'x'));
-  }
-
   private step(event: KeyboardEvent): void {
     if (event.key !== 'ArrowLeft' && event.key !== 'ArrowRight') return;
     event.preventDefault();
@@ -137,8 +134,14 @@ export class ResidualPlot {
   private follow(time: number): void {
     const x = this.plot.valToPos(time, 'x');
     if (Number.isFinite(x)) this.cursor.style.transform = `translateX(${x.toFixed(1)}px)`;
-    const near = nearest(this.data.points, time);
-    this.readout.textContent = near === null ? '' : pointInWords(this.data, near);
+    if (!this.isTelling) this.readOut(null);
+  }
+
+  /** What a drag would do, or the pose nearest to the moment. */
+  private readOut(words: string | null): void {
+    this.isTelling = words !== null;
+    const near = nearest(this.data.points, this.clock.time.value);
+    this.readout.textContent = words ?? (near === null ? '' : pointInWords(this.data, near));
   }
 }
 

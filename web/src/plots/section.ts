@@ -5,20 +5,21 @@ import { element } from '../element';
 import type { Model, Scene } from '../report';
 import { plotData } from './plot_data';
 import type { PlotData } from './plot_data';
+import type { PoseActs } from './pose_acts';
 import { ResidualPlot } from './residual_plot';
 
 export class ResidualsSection {
   readonly root = element('div', { class: 'residuals' });
   private plots = new Map<string, ResidualPlot>();
 
-  constructor(private readonly clock: Clock) {}
+  constructor(private readonly clock: Clock, private readonly acts: PoseActs | null) {}
 
   show(scene: Scene, model: Model | null): void {
     const times: [number, number] = [this.clock.start, this.clock.end];
     const margin = 0.03 * (times[1] - times[0]);
     const all = (model?.series ?? [])
       .filter((series) => series.points.length > 0)
-      .map((series) => plotData(model as Model, series, [times[0] - margin, times[1] + margin]));
+      .map((series) => plotData(model as Model, series, [times[0] - margin, times[1] + margin], this.acts));
     const isSame = all.length === this.plots.size && all.every((data) => this.plots.has(data.key));
     if (isSame && all.length > 0) {
       for (const data of all) this.plots.get(data.key)?.show(data);
@@ -33,7 +34,7 @@ export class ResidualsSection {
 
   private rebuild(scene: Scene, model: Model | null, all: PlotData[]): void {
     for (const plot of this.plots.values()) plot.end();
-    this.plots = new Map(all.map((data) => [data.key, new ResidualPlot(data, this.clock)]));
+    this.plots = new Map(all.map((data) => [data.key, new ResidualPlot(data, this.clock, this.acts)]));
     const groups = scene.bodies.map((body) => {
       const own = all.filter((data) => data.body === body.name);
       return element('section', { class: 'plots-of-body' },
@@ -41,8 +42,15 @@ export class ResidualsSection {
         ...own.map((data) => this.plots.get(data.key)?.root ?? null),
         own.length === 0 && element('p', { class: 'hint' }, 'No residuals: ', missing(model)));
     });
-    this.root.replaceChildren(...groups);
+    this.root.replaceChildren(legend(), ...groups);
   }
+}
+
+function legend(): HTMLElement {
+  const key = (side: string, shape: string): HTMLElement => element('span', { class: side, 'aria-hidden': 'true' }, shape);
+  return element('p', { class: 'hint plots-legend' },
+    key('before', '●'), ' before and ', key('after', '▲'), ' after the impact (dashed line), ◎ outliers. ',
+    'Point at a plot: 3D shows that moment, and the line follows in all plots.');
 }
 
 function missing(model: Model | null): string {

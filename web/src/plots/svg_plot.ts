@@ -71,20 +71,25 @@ function impactLine(x: number): SVGElement {
 }
 
 function mark(point: PlotPoint, x: number, y: number): SVGElement {
-  const fill = COLOURS[point.segment];
+  const colour = COLOURS[point.segment];
+  const fill = point.isMarked ? 'none' : colour;
   const shape =
     point.segment === 'before'
-      ? svg('circle', { cx: x, cy: y, r: RADIUS, fill })
-      : svg('polygon', { points: triangle(x, y, RADIUS).map((corner) => corner.map((v) => v.toFixed(2)).join()).join(' '), fill });
+      ? svg('circle', { cx: x, cy: y, r: RADIUS, fill, stroke: colour })
+      : svg('polygon', { points: triangle(x, y, RADIUS).map((corner) => corner.map((v) => v.toFixed(2)).join()).join(' '), fill, stroke: colour });
   const ring = svg('circle', { cx: x, cy: y, r: 2.2 * RADIUS, fill: 'none', stroke: COLOURS.alarm, 'stroke-width': 2 });
-  return point.isOff ? svg('g', {}, shape, ring) : shape;
+  const far = 2 * RADIUS;
+  const cross = svg('path', {
+    d: `M${x - far} ${y - far}L${x + far} ${y + far}M${x - far} ${y + far}L${x + far} ${y - far}`, stroke: colour,
+  });
+  return svg('g', {}, shape, point.isOff ? ring : null, point.isMarked ? cross : null);
 }
 
 function legend(data: PlotData): SVGElement[] {
   const y = HEIGHT - 14;
   const at = (x: number, words: string): SVGElement =>
     svg('text', { x, y: y + 4, 'font-size': 12, fill: COLOURS.ink }, words);
-  const point = { observation: 0, time: 0, value: 0, isOff: false };
+  const point = { observation: 0, time: 0, value: 0, isOff: false, isMarked: false };
   return [
     mark({ ...point, segment: 'before' }, FRAME.left + 4, y), at(FRAME.left + 14, 'before the impact'),
     mark({ ...point, segment: 'after' }, FRAME.left + 134, y), at(FRAME.left + 144, 'after it'),

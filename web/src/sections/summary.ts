@@ -8,7 +8,7 @@ import { flagInWords, label } from '../words';
 
 export function summary(report: Report, model: Model | null): HTMLElement[] {
   if (model === null) return [element('p', {}, 'This report holds no result.')];
-  return [verdict(report, model), keyNumbers(model), ...flags(model)];
+  return [element('div', { class: 'glance' }, verdict(report, model), keyNumbers(model)), ...flags(report, model)];
 }
 
 /** In one sentence whether the model fits, in another what is missing. */
@@ -88,9 +88,12 @@ function estimate(value: Estimate, unit: string): string {
   return withUnit(withDeviation(value.value, value.std), unit);
 }
 
-function flags(model: Model): HTMLElement[] {
-  if (model.result.flags.length === 0) return [];
-  const items = model.result.flags.map((flag) => {
+function flags(report: Report, model: Model): HTMLElement[] {
+  // Where the diagnosis names what is missing, the fit's being poor is no further doubt.
+  const isExplained = report.diagnosis?.verdict === 'missing';
+  const left = model.result.flags.filter((flag) => flag !== 'poor_fit' || !isExplained);
+  if (left.length === 0) return [];
+  const items = left.map((flag) => {
     const { meaning, advice } = flagInWords(flag);
     return element('li', {}, meaning, advice === '' ? '' : element('span', { class: 'hint' }, ` Mend: ${advice}.`));
   });

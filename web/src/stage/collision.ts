@@ -1,6 +1,7 @@
 // Everything that is drawn of one model of a scene, moved to any time.
 
 import { Group, Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from 'three';
+import { singleOutliers } from '../outliers';
 import type { Model, Scene } from '../report';
 import { Arrow } from './arrow';
 import { Differences } from './differences';
@@ -37,7 +38,7 @@ export class Collision extends Group {
       poses: new Group(), model: new Group(), paths: new Group(), impulse: new Group(), spins: new Group(),
     };
     this.add(this.floor, ...Object.values(this.drawn));
-    this.poses = scene.bodies.map((body) => new Poses(body, model?.residuals.outliers ?? [], colours));
+    this.poses = scene.bodies.map((body) => new Poses(body, model ? singleOutliers(model) : [], colours));
     this.drawn.poses.add(...this.poses);
     this.addMotion(all.radius);
     this.addImpulse(all.radius);

@@ -1,0 +1,21 @@
+// Says that the server is gone, as long as it is.
+
+import { element } from '../element';
+import type { Studio } from './studio';
+
+const WORDS = {
+  lost:
+    'smash doesn’t answer: it was stopped, or is busy. This page tries again by itself; what you typed is kept. ' +
+    'If you stopped it, start smash studio again with the same scene: it goes on where it was.',
+  refused:
+    'smash runs, but under another address: it was started again. Open the address that it printed; the session is there.',
+};
+
+export function banner(studio: Studio): HTMLElement {
+  const root = element('p', { class: 'banner', role: 'alert', 'data-testid': 'banner', hidden: true });
+  studio.connection.watch((connection) => {
+    root.hidden = connection === 'there';
+    root.textContent = connection === 'there' ? '' : WORDS[connection];
+  });
+  return root;
+}

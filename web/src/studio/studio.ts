@@ -1,0 +1,102 @@
+// What the studio shows, and the one way to change it: acts, one after the other.
+
+import { Signal } from '../signal';
+import type { Action, StudioState } from '../studio_state';
+import { api, ConnectionLost, Refusal } from './api';
+import type { ErrorLine } from './error_line';
+
+/** Whether the server answers; `refused` where it does, but no longer to this page's address. */
+export type Connection = 'there' | 'lost' | 'refused';
+
+const POLL_MS = 2000;
+const LONGEST_WAIT_MS = 10_000;
+
+export class Studio {
+  readonly state: Signal<StudioState>;
+  readonly connection = new Signal<Connection>('there');
+  /** How many acts are under way. */
+  readonly busy = new Signal(0);
+  private queue: Promise<unknown> = Promise.resolve();
+  private wait = POLL_MS;
+  private retry = 0;
+
+  constructor(state: StudioState) {
+    this.state = new Signal(state);
+    this.pollLater();
+    document.addEventListener('visibilitychange', () => {
+      if (!document.hidden) void this.poll();
+    });
+  }
+
+  /** Does it, shows what came of it, and tells at `line` what went wrong. */
+  act(action: Action, line: ErrorLine): Promise<boolean> {
+    return this.change(() => api.act(action), line);
+  }
+
+  openSession(text: string, line: ErrorLine): Promise<boolean> {
+    return this.change(() => api.openSession(text), line);
+  }
+
+  private change(request: () => Promise<StudioState>, line: ErrorLine): Promise<boolean> {
+    this.busy.set(this.busy.value + 1);
+    const done = this.queue.then(async () => {
+      try {
+        this.take(await request());
+        line.clear();
+        return true;
+      } catch (error) {
+        line.tell(error);
+        this.heed(error);
+        return false;
+      } finally {
+        this.busy.set(this.busy.value - 1);
+      }
+    });
+    this.queue = done;
+    return done;
+  }
+
+  private take(state: StudioState): void {
+    this.answered();
+    // An answer that was overtaken says less than what is shown.
+    if (state.revision >= this.state.value.revision) this.state.set(state);
+  }
+
+  /** What any request's failure means for the connection. */
+  heed(error: unknown): void {
+    if (error instanceof ConnectionLost) this.connection.set('lost');
+    else if (error instanceof Refusal && (error.status === 403 || error.status === 404)) this.connection.set('refused');
+    else return;
+    this.wait = 500;
+    this.pollLater();
+  }
+
+  private answered(): void {
+    this.wait = POLL_MS;
+    this.connection.set('there');
+  }
+
+  private pollLater(): void {
+    clearTimeout(this.retry);
+    this.retry = window.setTimeout(() => void this.poll(), this.wait);
+  }
+
+  /** Sees whether another browser changed something, or whether the server is there again. */
+  private async poll(): Promise<void> {
+    const wasAway = this.connection.value !== 'there';
+    try {
+      const { revision } = await api.revision();
+      this.answered();
+      if ((wasAway || revision !== this.state.value.revision) && this.busy.value === 0) {
+        const state = await api.state();
+        // A server that was started anew counts from its session's number.
+        if (state.revision !== this.state.value.revision) this.state.set(state);
+      }
+    } catch (error) {
+      const longer = Math.min(2 * this.wait, LONGEST_WAIT_MS);
+      this.heed(error);
+      this.wait = wasAway ? longer : this.wait;
+    }
+    this.pollLater();
+  }
+}
