@@ -18,7 +18,8 @@ export class Clock {
   private drawnAt = 0;
 
   cover(poses: number[], impact: number | null): void {
-    const isFirst = this.poses.length === 0;
+    // What shows the impact goes on doing so when that moves.
+    const isAtImpact = this.poses.length === 0 || this.time.value === this.impact;
     this.poses = [...new Set(poses)].sort((a, b) => a - b);
     this.impact = impact;
     const all = impact === null ? this.poses : [...this.poses, impact];
@@ -26,7 +27,7 @@ export class Clock {
     this.end = Math.max(...all);
     if (this.poses.length === 0) [this.start, this.end] = [0, 1];
     this.span.set(this.span.value + 1);
-    this.go(isFirst ? (impact ?? this.start) : this.time.value);
+    this.go(isAtImpact ? (impact ?? this.start) : this.time.value);
   }
 
   go(time: number): void {

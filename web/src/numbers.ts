@@ -1,10 +1,13 @@
 // Numbers as a physicist writes them: as many digits as are meant, with unit and deviation.
 
+/** What the data may leave out: optional fields are read as null. */
+export type Maybe<T> = T | null | undefined;
+
 const MINUS = '−';
 export const NONE = '–';
 
 /** With `digits` significant digits; large and small ones by powers of ten. */
-export function significant(value: number | null | undefined, digits = 3): string {
+export function significant(value: Maybe<number>, digits = 3): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return NONE;
   if (value === 0) return '0';
   const exponent = Math.floor(Math.log10(Math.abs(value)));
@@ -26,15 +29,15 @@ function power(value: number, digits: number): string {
 }
 
 /** How many decimals a number with this deviation deserves: those of two digits of the deviation. */
-export function decimalsFor(value: number, std: number | null | undefined): number {
+export function decimalsFor(value: number, std: Maybe<number>): number {
   const guide = std !== null && std !== undefined && std > 0 ? std : Math.abs(value) / 100;
   if (!(guide > 0) || !Number.isFinite(guide)) return 3;
   return Math.max(0, 1 - Math.floor(Math.log10(guide)));
 }
 
 /** `1.809 ± 0.016`, or the number alone. */
-export function withDeviation(value: number | null, std: number | null | undefined): string {
-  if (value === null) return NONE;
+export function withDeviation(value: Maybe<number>, std: Maybe<number>): string {
+  if (value === null || value === undefined) return NONE;
   if (Math.abs(value) >= 1e6 || (value !== 0 && Math.abs(value) < 1e-5)) {
     return std ? `${significant(value)} ± ${significant(std, 2)}` : significant(value);
   }
@@ -44,7 +47,7 @@ export function withDeviation(value: number | null, std: number | null | undefin
 }
 
 /** Several numbers with the same decimals: `(0.12, −0.43, 0.59)`. */
-export function tuple(values: readonly number[] | null | undefined, digits = 3): string {
+export function tuple(values: Maybe<readonly number[]>, digits = 3): string {
   if (!values) return NONE;
   if (values.length === 1) return significant(values[0], digits);
   const largest = Math.max(...values.map(Math.abs));
@@ -63,14 +66,14 @@ export function probability(value: number): string {
   return fixed(value, 3);
 }
 
-export function pValue(value: number | null): string {
-  if (value === null) return NONE;
+export function pValue(value: Maybe<number>): string {
+  if (value === null || value === undefined) return NONE;
   if (value < 1e-12) return '< 10⁻¹²';
   return value < 0.001 ? significant(value, 2) : fixed(value, 3);
 }
 
 /** Metres as mm, below 10 m. */
-export function length(metres: number | null | undefined, digits = 3): string {
+export function length(metres: Maybe<number>, digits = 3): string {
   if (metres === null || metres === undefined) return NONE;
   return Math.abs(metres) < 1
     ? `${significant(metres * 1000, digits)} mm`
@@ -78,7 +81,7 @@ export function length(metres: number | null | undefined, digits = 3): string {
 }
 
 /** Radians as degrees. */
-export function angle(radians: number | null | undefined, digits = 3): string {
+export function angle(radians: Maybe<number>, digits = 3): string {
   if (radians === null || radians === undefined) return NONE;
   return `${significant(radians * DEGREES, digits)}°`;
 }

@@ -100,7 +100,7 @@ export class ReportPage {
     this.fillChoice(report);
     this.stage?.show(report.scene, model);
     this.residuals.show(report.scene, model);
-    this.estimates.fill(model ? estimates(model) : []);
+    this.estimates.fill(model ? estimates(report, model) : []);
     this.ledger.fill(model ? ledger(model) : []);
   }
 

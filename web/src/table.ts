@@ -2,24 +2,32 @@
 
 import { element } from './element';
 import type { Child } from './element';
+import { NONE } from './numbers';
 
 export interface Column {
   head: string;
   /** Numbers stand to the right. */
   isNumber?: boolean;
+  /** May be broken into lines. */
+  isProse?: boolean;
 }
 
-/** It scrolls by itself where it is wider than the page. */
+/** It scrolls by itself where it is wider than the page. Columns that hold nothing are left out. */
 export function table(caption: string, columns: Column[], rows: Child[][], test?: string): HTMLElement {
-  const cellClass = (index: number): string | null => (columns[index]?.isNumber ? 'number' : null);
+  const kept = columns.map((_, index) => index).filter((index) => index === 0 || rows.some((row) => !isNothing(row[index])));
+  const kind = (index: number): string | null =>
+    columns[index].isNumber ? 'number' : columns[index].isProse ? 'prose' : null;
+  const head = kept.map((index) => element('th', { scope: 'col', class: kind(index) }, columns[index].head));
+  const body = rows.map((row) => element('tr', {},
+    element('th', { scope: 'row' }, row[0]),
+    ...kept.slice(1).map((index) => element('td', { class: kind(index) }, row[index]))));
   const made = element('table', { 'data-testid': test },
     element('caption', {}, caption),
-    element('thead', {}, element('tr', {},
-      ...columns.map((column, index) => element('th', { scope: 'col', class: cellClass(index) }, column.head)))),
-    element('tbody', {}, ...rows.map((row) => element('tr', {},
-      ...row.map((cell, index) =>
-        index === 0
-          ? element('th', { scope: 'row' }, cell)
-          : element('td', { class: cellClass(index) }, cell))))));
+    element('thead', {}, element('tr', {}, ...head)),
+    element('tbody', {}, ...body));
   return element('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': caption }, made);
+}
+
+function isNothing(cell: Child): boolean {
+  return cell === NONE || cell === '' || cell === null || cell === undefined || cell === false;
 }

@@ -3,7 +3,17 @@
 import { element } from './element';
 
 const THEMES = ['auto', 'light', 'dark'] as const;
-const WORDS = { auto: 'as the system', light: 'light', dark: 'dark' };
+const WORDS = { auto: 'Colours: auto', light: 'Light', dark: 'Dark' };
+
+/** Does something while the page is light, whatever it was. */
+export function inLight(act: () => void): void {
+  const { dataset } = document.documentElement;
+  const chosen = dataset.theme;
+  dataset.theme = 'light';
+  act();
+  if (chosen === undefined) delete dataset.theme;
+  else dataset.theme = chosen;
+}
 
 export function themeSwitch(repaint: () => void): HTMLElement {
   const choice = element('select', {

@@ -70,7 +70,7 @@ export function quantityInWords(name: string): { body: string | null; words: str
 /** `quadratic_drag@ball`, or the name alone where it acts on all. */
 export function label(effect: ActiveEffect | Candidate): string {
   const name = 'effect' in effect ? effect.effect : effect.name;
-  return effect.body === null ? name : `${name}@${effect.body}`;
+  return effect.body ? `${name}@${effect.body}` : name;
 }
 
 const plain = (name: string): string => name.replaceAll('_', ' ');

@@ -41,7 +41,7 @@ export function plotData(model: Model, series: Series, times: [number, number], 
   const off = singleOutliers(model).filter(
     (outlier) => outlier.body === series.body && outlier.channel === series.channel,
   );
-  const sigma = series.sigma === null ? null : series.sigma * scale;
+  const sigma = typeof series.sigma === 'number' ? series.sigma * scale : null;
   const points = series.points.map((point) => {
     const value = point.value * scale;
     // A pose that is off may be well in place along this axis.
@@ -53,7 +53,7 @@ export function plotData(model: Model, series: Series, times: [number, number], 
       isMarked: acts?.isMarked(series.body, point.observation) ?? false,
     };
   });
-  const tests = model.residuals.structure.filter(
+  const tests = (model.residuals.structure ?? []).filter(
     (test) => test.body === series.body && test.channel === series.axis,
   );
   return {
@@ -67,7 +67,7 @@ export function plotData(model: Model, series: Series, times: [number, number], 
     unit: isTurn ? '°' : 'mm',
     sigma,
     points,
-    impact: model.motion?.collision_time ?? model.result.collision_time.value,
+    impact: model.motion?.collision_time ?? model.result.collision_time.value ?? null,
     times,
     values: range(points.map((point) => point.value), sigma),
   };
@@ -76,11 +76,12 @@ export function plotData(model: Model, series: Series, times: [number, number], 
 function findings(tests: ChannelTest[]): string {
   const size = (test: ChannelTest): string => `${significant(test.rmse_in_sigma, 2)} σ`;
   if (tests.length > 0 && !tests.some((test) => test.fails)) {
-    return `like noise: ${tests.map((test) => `${size(test)} ${test.segment}`).join(', ')}`;
+    return `Like noise: ${tests.map((test) => `${size(test)} ${test.segment}`).join(', ')}`;
   }
-  return tests
-    .map((test) => `${test.fails ? test.pattern : 'like noise'} of ${size(test)} ${test.segment}`)
+  const words = tests
+    .map((test) => `${test.fails ? test.pattern : 'noise'} of ${size(test)} ${test.segment}`)
     .join(', ');
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 /** Even about zero, with room, and never tighter than the band. */

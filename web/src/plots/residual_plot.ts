@@ -12,7 +12,7 @@ import type { PlotData, PlotPoint } from './plot_data';
 import { pointInWords } from './plot_data';
 import { Pointer } from './pointer';
 import type { PoseActs } from './pose_acts';
-import { drawnPlot } from './svg_plot';
+import { barePlot, plotFile } from './svg_plot';
 
 const HEIGHT = 132;
 
@@ -21,21 +21,21 @@ export class ResidualPlot {
   private readonly plot: uPlot;
   private readonly title = element('span', { class: 'plot-title' });
   private readonly finding = element('span', { class: 'plot-finding' });
-  private readonly reading = element('p', { class: 'hint' });
+  private readonly reading = element('span');
   private readonly readout = element('p', { class: 'plot-readout', 'aria-live': 'off' });
   private readonly cursor = element('div', { class: 'plot-cursor', 'data-testid': 'plot-cursor' });
   private readonly paper = element('div', { class: 'plot-paper' });
   private isTelling = false;
   private readonly resized: ResizeObserver;
   private readonly unwatch: () => void;
-  private readonly print = (): void => this.paper.replaceChildren(drawnPlot(this.data));
+  private readonly print = (): void => this.paper.replaceChildren(barePlot(this.data));
 
   constructor(private data: PlotData, private readonly clock: Clock, acts: PoseActs | null) {
     const holder = element('div', { class: 'plot-canvas' });
     const readingId = freshId('reading');
-    this.reading.id = readingId;
     this.root = element('figure', { class: 'plot', 'data-testid': 'residual-plot', 'data-key': data.key },
-      element('figcaption', {}, this.title, this.finding, this.savers()), this.reading,
+      element('figcaption', {}, this.title, this.savers()),
+      element('p', { class: 'hint', id: readingId }, this.finding, this.reading),
       holder, this.paper, this.readout);
     this.plot = new uPlot(this.options(holder), columns(data), holder);
     const { over } = this.plot;
@@ -75,7 +75,7 @@ export class ResidualPlot {
   private tell(): void {
     const { data } = this;
     this.title.textContent = `${data.title}, ${data.unit}`;
-    this.finding.textContent = data.finding;
+    this.finding.textContent = data.finding === '' ? '' : `${data.finding}. `;
     this.root.classList.toggle('fails', data.fails);
     this.reading.textContent = data.reading;
     this.plot.over.setAttribute('aria-label', `Residuals of ${data.title}. ${data.finding}`);
@@ -89,7 +89,7 @@ export class ResidualPlot {
         'aria-label': `Save this plot as ${words}`, onclick: act,
       }, words);
     return element('span', { class: 'savers' },
-      button('SVG', 'save-svg', () => save(name('svg'), 'image/svg+xml', svgFile(drawnPlot(this.data)))),
+      button('SVG', 'save-svg', () => save(name('svg'), 'image/svg+xml', svgFile(plotFile(this.data)))),
       button('PNG', 'save-png', () => saveCanvas(this.plot.ctx.canvas, name('png'))));
   }
 

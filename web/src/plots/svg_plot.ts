@@ -5,32 +5,54 @@ import { svg } from '../svg';
 import { RADIUS, triangle } from './marks';
 import type { PlotData, PlotPoint } from './plot_data';
 
-const [WIDTH, HEIGHT] = [720, 260];
-const FRAME = { left: 64, top: 44, right: 708, bottom: 210 };
+interface Frame {
+  width: number;
+  height: number;
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
+
+/** A file explains itself; beside the page's own words the bare plot is enough. */
+const ALONE: Frame = { width: 720, height: 260, left: 64, top: 44, right: 708, bottom: 210 };
+const BARE: Frame = { width: 420, height: 150, left: 48, top: 8, right: 412, bottom: 126 };
 const COLOURS = {
   ink: '#1b1f24', faint: '#8a9099', grid: '#e4e6ea', band: '#e3e3e3',
   before: '#0072b2', after: '#d55e00', alarm: '#000000',
 };
 
-export function drawnPlot(data: PlotData): SVGSVGElement {
-  const x = scale(data.times, FRAME.left, FRAME.right);
-  const y = scale(data.values, FRAME.bottom, FRAME.top);
-  const text = (words: string, at: Record<string, string | number>): SVGElement =>
-    svg('text', { fill: COLOURS.ink, 'font-size': 12, ...at }, words);
+export function plotFile(data: PlotData): SVGSVGElement {
+  return drawn(data, ALONE, [
+    words(`${data.title}: measured minus model, ${data.unit}`, { x: ALONE.left, y: 18, 'font-weight': 600 }),
+    words(data.finding, { x: ALONE.left, y: 35, fill: COLOURS.faint }),
+    ...legend(data, ALONE),
+  ]);
+}
+
+export function barePlot(data: PlotData): SVGSVGElement {
+  return drawn(data, BARE, []);
+}
+
+function drawn(data: PlotData, frame: Frame, explanation: SVGElement[]): SVGSVGElement {
+  const x = scale(data.times, frame.left, frame.right);
+  const y = scale(data.values, frame.bottom, frame.top);
   return svg('svg', {
-    xmlns: 'http://www.w3.org/2000/svg', viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    xmlns: 'http://www.w3.org/2000/svg', viewBox: `0 0 ${frame.width} ${frame.height}`,
     'font-family': 'system-ui, sans-serif', role: 'img', 'aria-label': `Residuals of ${data.title}`,
   },
-    svg('rect', { width: WIDTH, height: HEIGHT, fill: '#ffffff' }),
-    text(`${data.title}: measured minus model, ${data.unit}`, { x: FRAME.left, y: 18, 'font-weight': 600 }),
-    text(data.finding, { x: FRAME.left, y: 35, fill: COLOURS.faint }),
-    band(data, y),
-    ...ticks(data.values).map((value) => gridLine(value, y(value))),
+    svg('rect', { width: frame.width, height: frame.height, fill: '#ffffff' }),
+    band(data, frame, y),
+    ...ticks(data.values).map((value) => gridLine(value, frame, y(value))),
     ...ticks(data.times).map((time) =>
-      text(`${short(time)} s`, { x: x(time), y: FRAME.bottom + 16, 'text-anchor': 'middle' })),
-    data.impact === null ? null : impactLine(x(data.impact)),
+      words(`${short(time)} s`, { x: x(time), y: frame.bottom + 16, 'text-anchor': 'middle' })),
+    data.impact === null ? null : impactLine(x(data.impact), frame),
     ...data.points.map((point) => mark(point, x(point.time), y(point.value))),
-    ...legend(data));
+    ...explanation);
+}
+
+function words(text: string, at: Record<string, string | number>): SVGElement {
+  return svg('text', { fill: COLOURS.ink, 'font-size': 12, ...at }, text);
 }
 
 function scale([low, high]: [number, number], from: number, to: number): (value: number) => number {
@@ -47,26 +69,26 @@ function ticks([low, high]: [number, number]): number[] {
   return made;
 }
 
-function band(data: PlotData, y: (value: number) => number): SVGElement | null {
+function band(data: PlotData, frame: Frame, y: (value: number) => number): SVGElement | null {
   if (!data.sigma) return null;
   const top = y(2 * data.sigma);
   return svg('rect', {
-    x: FRAME.left, y: top, width: FRAME.right - FRAME.left, height: y(-2 * data.sigma) - top, fill: COLOURS.band,
+    x: frame.left, y: top, width: frame.right - frame.left, height: y(-2 * data.sigma) - top, fill: COLOURS.band,
   });
 }
 
-function gridLine(value: number, y: number): SVGElement {
+function gridLine(value: number, frame: Frame, y: number): SVGElement {
   return svg('g', {},
     svg('line', {
-      x1: FRAME.left, x2: FRAME.right, y1: y, y2: y, stroke: value === 0 ? COLOURS.faint : COLOURS.grid,
+      x1: frame.left, x2: frame.right, y1: y, y2: y, stroke: value === 0 ? COLOURS.faint : COLOURS.grid,
     }),
-    svg('text', { x: FRAME.left - 6, y: y + 4, 'text-anchor': 'end', 'font-size': 12, fill: COLOURS.ink },
+    svg('text', { x: frame.left - 6, y: y + 4, 'text-anchor': 'end', 'font-size': 12, fill: COLOURS.ink },
       short(value)));
 }
 
-function impactLine(x: number): SVGElement {
+function impactLine(x: number, frame: Frame): SVGElement {
   return svg('line', {
-    x1: x, x2: x, y1: FRAME.top, y2: FRAME.bottom, stroke: COLOURS.ink, 'stroke-dasharray': '4 3',
+    x1: x, x2: x, y1: frame.top, y2: frame.bottom, stroke: COLOURS.ink, 'stroke-dasharray': '4 3',
   });
 }
 
@@ -85,17 +107,17 @@ function mark(point: PlotPoint, x: number, y: number): SVGElement {
   return svg('g', {}, shape, point.isOff ? ring : null, point.isMarked ? cross : null);
 }
 
-function legend(data: PlotData): SVGElement[] {
-  const y = HEIGHT - 14;
+function legend(data: PlotData, frame: Frame): SVGElement[] {
+  const y = frame.height - 14;
   const at = (x: number, words: string): SVGElement =>
     svg('text', { x, y: y + 4, 'font-size': 12, fill: COLOURS.ink }, words);
   const point = { observation: 0, time: 0, value: 0, isOff: false, isMarked: false };
   return [
-    mark({ ...point, segment: 'before' }, FRAME.left + 4, y), at(FRAME.left + 14, 'before the impact'),
-    mark({ ...point, segment: 'after' }, FRAME.left + 134, y), at(FRAME.left + 144, 'after it'),
+    mark({ ...point, segment: 'before' }, frame.left + 4, y), at(frame.left + 14, 'before the impact'),
+    mark({ ...point, segment: 'after' }, frame.left + 134, y), at(frame.left + 144, 'after it'),
     ...(data.sigma
-      ? [svg('rect', { x: FRAME.left + 208, y: y - 6, width: 16, height: 12, fill: COLOURS.band }),
-         at(FRAME.left + 230, `±2 σ = ±${significant(2 * data.sigma, 3)} ${data.unit}`)]
+      ? [svg('rect', { x: frame.left + 208, y: y - 6, width: 16, height: 12, fill: COLOURS.band }),
+         at(frame.left + 230, `±2 σ = ±${significant(2 * data.sigma, 3)} ${data.unit}`)]
       : []),
   ];
 }

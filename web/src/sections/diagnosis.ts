@@ -10,7 +10,9 @@ import { parameterInWords } from './estimates';
 
 /** `adder` makes a button that adds an effect; a report has none. */
 export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): Child[] {
+  const asked = diagnosis.model.length === 0 ? 'the base model' : `the base model with ${diagnosis.model.map(label).join(', ')}`;
   return [
+    element('p', { class: 'label' }, `Asked of ${asked}`),
     element('p', { class: 'lead', 'data-testid': 'explanation' }, diagnosis.explanation),
     diagnosis.candidates.length > 0 && candidates(diagnosis, adder),
     element('p', { class: 'hint' },
@@ -26,8 +28,8 @@ export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) 
 function candidates(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): HTMLElement {
   const columns = [
     { head: 'candidate' }, { head: 'probability', isNumber: true }, { head: 'p-value', isNumber: true },
-    { head: 'Δχ²', isNumber: true }, { head: 'held out', isNumber: true }, { head: 'parameters' },
-    { head: 'can’t be told from' },
+    { head: 'Δχ²', isNumber: true }, { head: 'held out', isNumber: true }, { head: 'parameters', isProse: true },
+    { head: 'can’t be told from', isProse: true },
   ];
   const rows = diagnosis.candidates.map((candidate): Child[] => [
     element('span', { class: candidate.stands_out ? 'stands-out' : null }, label(candidate)),
@@ -40,8 +42,8 @@ function candidates(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElemen
 }
 
 function heldOut(candidate: Candidate): string {
-  if (candidate.heldout_rmse_before === null || candidate.heldout_rmse_after === null) return NONE;
-  return `${length(candidate.heldout_rmse_before)} → ${length(candidate.heldout_rmse_after)}`;
+  const { heldout_rmse_before: before, heldout_rmse_after: after } = candidate;
+  return typeof before === 'number' && typeof after === 'number' ? `${length(before)} → ${length(after)}` : NONE;
 }
 
 function parameters(candidate: Candidate): string {

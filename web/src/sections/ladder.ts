@@ -2,7 +2,7 @@
 
 import { element } from '../element';
 import type { Child } from '../element';
-import { angle, length, NONE, pValue, significant } from '../numbers';
+import { angle, length, pValue, significant } from '../numbers';
 import type { Improvement, Rung } from '../report';
 import { save } from '../save';
 import { svgFile } from '../svg';
@@ -41,9 +41,9 @@ export function ladder(improvement: Improvement): Child[] {
 
 function row(rung: Rung): Child[] {
   return [
-    rung.added === null ? startInWords(rung) : `+ ${rung.added}`,
+    !rung.added ? startInWords(rung) : `+ ${rung.added}`,
     pValue(rung.p_value), length(rung.position_rmse), length(rung.heldout_position_rmse),
-    rung.orientation_rmse === null ? NONE : angle(rung.orientation_rmse),
+    angle(rung.orientation_rmse),
     significant(rung.reduced_chi2), significant(rung.mass_ratio, 4), significant(rung.restitution, 4),
   ];
 }

@@ -11,11 +11,11 @@ export function ladderPlot(rungs: Rung[]): SVGSVGElement {
   const largest = Math.max(...rungs.flatMap((rung) => [rung.position_rmse, rung.heldout_position_rmse ?? 0]), 1e-12);
   const rows = rungs.flatMap((rung, index) => [
     svg('text', { x: LEFT - 10, y: index * ROW + 26, 'text-anchor': 'end', 'font-size': 13, fill: 'currentColor' },
-      rung.added === null ? 'start' : `+ ${rung.added}`),
+      !rung.added ? 'start' : `+ ${rung.added}`),
     ...bar(rung.position_rmse, largest, index * ROW + 6, '#0072b2', 'error'),
-    ...(rung.heldout_position_rmse === null
-      ? []
-      : bar(rung.heldout_position_rmse, largest, index * ROW + 24, '#e69f00', 'held out')),
+    ...(typeof rung.heldout_position_rmse === 'number'
+      ? bar(rung.heldout_position_rmse, largest, index * ROW + 24, '#e69f00', 'held out')
+      : []),
   ]);
   return svg('svg', {
     xmlns: 'http://www.w3.org/2000/svg', viewBox: `0 0 ${WIDTH} ${height}`, role: 'img', class: 'ladder-plot',

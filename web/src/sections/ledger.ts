@@ -9,14 +9,14 @@ import { quantityInWords } from '../words';
 
 export function ledger(model: Model): Child[] {
   const { about, lines } = model.residuals.ledger;
-  let last: string | null | undefined;
+  let last: string | null | undefined = '';
   const rows = lines.map((line): Child[] => {
     const isNew = line.body !== last;
     last = line.body;
     return [
       isNew ? (line.body ?? 'all together') : '', quantityInWords(line.quantity).words,
       entry(line.before), entry(line.after), entry(line.change),
-      line.change_in_sigma === null ? NONE : `${significant(line.change_in_sigma, 2)} σ`, line.unit,
+      typeof line.change_in_sigma === 'number' ? `${significant(line.change_in_sigma, 2)} σ` : NONE, line.unit,
     ];
   });
   return [
@@ -30,7 +30,7 @@ export function ledger(model: Model): Child[] {
 }
 
 function entry({ value, std }: LedgerEntry): string {
-  if (value === null) return NONE;
+  if (!value) return NONE;
   if (value.length === 1) return withDeviation(value[0], std[0]);
   return tuple(value);
 }

@@ -16,6 +16,7 @@ export function sideBySide(report: Report): Child[] {
       head: models.length > 2 ? `${model.name} − first` : 'difference', isNumber: true,
     })),
   ];
+  const told = report.quantities.filter((quantity) => quantity.entries.some((entry) => entry.value));
   const errors: Child[][] = [
     ['error of the fit, positions', '', ...models.map((model) => length(model.result.fit.position_rmse)), ...models.slice(1).map(() => '')],
     ['error of the fit, orientations', '', ...models.map((model) => angle(model.result.fit.orientation_rmse)), ...models.slice(1).map(() => '')],
@@ -23,7 +24,7 @@ export function sideBySide(report: Report): Child[] {
   ];
   return [
     table('Results side by side; differences are from the first, in σ where one has a deviation', columns,
-      [...errors, ...report.quantities.map(row)], 'side-by-side'),
+      [...errors, ...told.map(row)], 'side-by-side'),
     element('p', { class: 'hint' }, 'Results of the same poses share their errors: σ is a yardstick here, not a test.'),
   ];
 }
@@ -34,13 +35,12 @@ function row(quantity: Quantity): Child[] {
     body === null ? words : `${body}: ${words}`, quantity.unit,
     ...quantity.entries.map(entry),
     ...quantity.differences.map((difference) =>
-      difference.size === null
-        ? NONE
-        : significant(difference.size) + (difference.in_sigma === null ? '' : ` (${significant(difference.in_sigma, 2)} σ)`)),
+      significant(difference.size) +
+      (typeof difference.in_sigma === 'number' ? ` (${significant(difference.in_sigma, 2)} σ)` : '')),
   ];
 }
 
 function entry({ value, std, reason }: QuantityEntry): Child {
-  if (value === null) return element('span', { title: reason }, NONE);
+  if (!value) return element('span', { title: reason }, NONE);
   return value.length === 1 ? withDeviation(value[0], std[0]) : tuple(value);
 }

@@ -14,13 +14,8 @@ export function summary(report: Report, model: Model | null): HTMLElement[] {
 /** In one sentence whether the model fits, in another what is missing. */
 function verdict(report: Report, model: Model): HTMLElement {
   const { diagnosis, improvement } = report;
-  const isBase = model.result.effects.length === 0;
-  const missing: Child =
-    diagnosis && sameEffects(diagnosis.model.map(label), model)
-      ? diagnosis.explanation
-      : improvement && improvement.ladder.length > 0 && isBase && improvement.verdict !== 'nothing_missing'
-        ? `Missing: ${improvement.ladder.map((rung) => rung.added).filter(Boolean).join(', ')}.`
-        : null;
+  const missing =
+    diagnosis && hasEffects(model, diagnosis.model.map(label)) ? diagnosis.explanation : ofLadder(improvement, model);
   const fits = fit(report, model);
   return element('div', { class: `verdict ${fits.isGood === false ? 'bad' : 'good'}`, 'data-testid': 'verdict' },
     element('p', { class: 'lead' }, fits.words),
@@ -28,7 +23,16 @@ function verdict(report: Report, model: Model): HTMLElement {
     ...findings(model));
 }
 
-function sameEffects(labels: string[], model: Model): boolean {
+/** What the ladder says of its last model. */
+function ofLadder(improvement: Report['improvement'], model: Model): string | null {
+  const last = improvement?.ladder.at(-1);
+  if (!last || !improvement || !hasEffects(model, last.with)) return null;
+  return improvement.verdict === 'unknown_effect'
+    ? 'Something is left that no effect of the catalogue explains.'
+    : 'Nothing more is missing that these poses could show.';
+}
+
+function hasEffects(model: Model, labels: string[]): boolean {
   const own = model.result.effects.map(label);
   return own.length === labels.length && own.every((one) => labels.includes(one));
 }
@@ -43,18 +47,19 @@ function fit(report: Report, model: Model): FitInWords {
   const rmse = residuals.position_rmse ?? result.fit.position_rmse;
   const noise = report.noise;
   const size = `${length(rmse)} a coordinate${noise ? `, ${significant(rmse / noise.position, 2)} σ of the noise` : ''}`;
-  const isStructured = residuals.structure.some((test) => test.fails);
+  const structure = residuals.structure ?? [];
+  const isStructured = structure.some((test) => test.fails);
   if (result.flags.includes('poor_fit') || isStructured) {
     return { words: `The model misses the measured poses by more than noise: ${size}.`, isGood: false };
   }
-  if (residuals.structure.length === 0) {
+  if (structure.length === 0) {
     return { words: `The model misses the measured poses by ${size}.`, isGood: null };
   }
   return { words: `The model meets the measured poses to their noise: ${size}.`, isGood: true };
 }
 
 function findings(model: Model): Child[] {
-  const [...all] = model.residuals.findings;
+  const all = model.residuals.findings ?? [];
   if (all.length === 0) return [];
   const list = (from: string[]): HTMLElement => element('ul', { class: 'findings' }, ...from.map((f) => element('li', {}, f)));
   const rest = all.slice(3);
@@ -73,8 +78,8 @@ function keyNumbers(model: Model): HTMLElement {
   numbers.push(['collision time', estimate(result.collision_time, 's')]);
   const turn = result.fit.orientation_rmse;
   numbers.push(['error of the fit',
-    length(result.fit.position_rmse) + (turn === null ? '' : `, ${angle(turn)}`)]);
-  if (result.fit.reduced_chi2 !== null) {
+    length(result.fit.position_rmse) + (typeof turn === 'number' ? `, ${angle(turn)}` : '')]);
+  if (typeof result.fit.reduced_chi2 === 'number') {
     numbers.push(['χ² per degree of freedom', significant(result.fit.reduced_chi2)]);
   }
   const effects = result.effects.map(label).join(', ');
@@ -84,7 +89,7 @@ function keyNumbers(model: Model): HTMLElement {
 }
 
 function estimate(value: Estimate, unit: string): string {
-  if (value.value === null) return 'not told';
+  if (typeof value.value !== 'number') return 'not told';
   return withUnit(withDeviation(value.value, value.std), unit);
 }
 

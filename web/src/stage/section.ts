@@ -5,6 +5,7 @@ import { element, freshId } from '../element';
 import { length } from '../numbers';
 import type { Model, Scene } from '../report';
 import { saveCanvas } from '../save';
+import { inLight } from '../theme';
 import { Timeline } from './timeline';
 import { Stage } from './stage';
 import type { Layer } from './collision';
@@ -27,6 +28,7 @@ export class StageSection {
   private readonly grid = element('p', { class: 'hint', 'data-testid': 'grid-note' });
   private readonly still = element('canvas', { class: 'stage-still', 'aria-hidden': 'true' });
   private readonly exaggeration: HTMLSelectElement;
+  private readonly difference = element('p', { class: 'hint', hidden: true, 'data-testid': 'difference-note' });
 
   constructor(scene: Scene, clock: Clock) {
     const holder = element('div', { class: 'stage', 'data-testid': 'stage' });
@@ -39,7 +41,7 @@ export class StageSection {
     this.timeline = new Timeline(clock);
     this.exaggeration = this.exaggerationChoice();
     this.root = element('div', { class: 'stage-section' },
-      holder, this.still, this.timeline.root, this.stage && this.tools(), this.grid);
+      holder, this.still, this.timeline.root, this.stage && this.tools(), this.difference, this.grid);
     clock.time.watch((time) => this.stage?.showAt(time));
     window.addEventListener('beforeprint', () => this.keepStill());
   }
@@ -59,16 +61,27 @@ export class StageSection {
   exaggerateMore(): void {
     const next = (this.exaggeration.selectedIndex + 1) % EXAGGERATIONS.length;
     this.exaggeration.selectedIndex = next;
-    this.stage?.exaggerate(EXAGGERATIONS[next]);
+    this.exaggerate(EXAGGERATIONS[next]);
+  }
+
+  private exaggerate(times: number): void {
+    this.stage?.exaggerate(times);
+    this.difference.hidden = times === 0;
+    this.difference.textContent =
+      `Thick strokes lead from each measured centre to where the model has it, ${times === 1 ? 'true to scale' : `${times} × as long`}; a thin line joins their ends.`;
   }
 
   /** What is printed: the canvas of 3D is empty by then. */
   private keepStill(): void {
-    if (this.stage === null) return;
-    this.stage.drawNow();
-    const { canvas } = this.stage;
-    [this.still.width, this.still.height] = [canvas.width, canvas.height];
-    this.still.getContext('2d')?.drawImage(canvas, 0, 0);
+    const { stage, still } = this;
+    if (stage === null) return;
+    inLight(() => {
+      stage.rebuild();
+      stage.drawNow();
+      [still.width, still.height] = [stage.canvas.width, stage.canvas.height];
+      still.getContext('2d')?.drawImage(stage.canvas, 0, 0);
+    });
+    stage.rebuild();
   }
 
   private tools(): HTMLElement {
@@ -101,7 +114,7 @@ export class StageSection {
     const choice = element('select', {
       'data-testid': 'exaggeration',
       title: 'From each measured centre to where the model has it, so many times as long',
-      onchange: () => this.stage?.exaggerate(Number(choice.value)),
+      onchange: () => this.exaggerate(Number(choice.value)),
     }, ...EXAGGERATIONS.map((times) => element('option', { value: times }, times === 0 ? 'off' : `× ${times}`)));
     return choice;
   }

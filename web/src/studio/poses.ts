@@ -3,6 +3,7 @@
 import { element, refill } from '../element';
 import type { Child } from '../element';
 import { DEGREES, fixed, significant } from '../numbers';
+import type { Maybe } from '../numbers';
 import type { Body } from '../report';
 import type { StudioState } from '../studio_state';
 import { table } from '../table';
@@ -28,10 +29,10 @@ export class Poses {
 
   private showNoise(state: StudioState): void {
     const stated = state.edits.noise ?? state.report.scene.noise;
-    const field = (id: string, value: number | null, words: string): HTMLInputElement =>
+    const field = (id: string, value: Maybe<number>, words: string): HTMLInputElement =>
       element('input', {
         type: 'number', id, min: 0, step: 'any', 'data-testid': id, 'aria-label': words, class: 'short-field',
-        value: value === null ? null : Number(value.toPrecision(6)),
+        value: typeof value !== 'number' ? null : Number(value.toPrecision(6)),
       });
     const position = field('noise-position', stated && stated.position * 1000, 'One σ of a position coordinate, mm');
     const turn = field('noise-orientation', stated && stated.orientation * DEGREES, 'One σ of an orientation, degrees');
@@ -47,7 +48,7 @@ export class Poses {
         type: 'button', id: 'noise-reset', 'data-testid': 'noise-reset',
         onclick: () => void this.studio.act({ do: 'noise' }, this.line),
       }, 'As in the scene'),
-      stated === null && element('span', { class: 'hint' }, 'The scene states none: it is estimated from the residuals.'));
+      !stated && element('span', { class: 'hint' }, 'The scene states none: it is estimated from the residuals.'));
     refill(this.noise, form);
   }
 
