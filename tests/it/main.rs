@@ -6,6 +6,7 @@
 
 mod bad_input;
 mod batch;
+mod browser;
 mod collision;
 mod compare;
 mod docs;

@@ -15,7 +15,6 @@ export class ConnectionLost extends Error {}
 
 export const api = {
   state: () => json<StudioState>('api/state'),
-  revision: () => json<{ revision: number }>('api/revision'),
   act: (action: Action) => post<StudioState>('api/act', JSON.stringify(action)),
   law: (draft: string) => post<CheckedLaw>('api/law', JSON.stringify({ draft })),
   diagnosis: (signal: AbortSignal) => json<Diagnosis>('api/diagnosis', { signal }),

@@ -5,8 +5,8 @@ import type { Studio } from './studio';
 
 const WORDS = {
   lost:
-    'smash doesn’t answer: it was stopped, or is busy. This page tries again by itself; what you typed is kept. ' +
-    'If you stopped it, start smash studio again with the same scene: it goes on where it was.',
+    'smash doesn’t answer: it was stopped, or is busy. This page tries again by itself; what you did is saved, what you typed is kept. ' +
+    'If it was stopped, start smash studio again with the same scene, and open the address that it prints.',
   refused:
     'smash runs, but under another address: it was started again. Open the address that it printed; the session is there.',
 };

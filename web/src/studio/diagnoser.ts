@@ -7,35 +7,37 @@ import type { Studio } from './studio';
 const PAUSE_MS = 250;
 
 export class Diagnoser {
-  private under_way: AbortController | null = null;
+  private request: AbortController | null = null;
   private timer = 0;
-  private asked = -1;
+  private hasFailed = false;
 
   /** `tell` gets the diagnosis of what is shown; null while it is sought; or the error. */
   constructor(private readonly studio: Studio, private readonly tell: (answer: Diagnosis | Error | null) => void) {}
 
   ask(): void {
-    const { revision } = this.studio.state.value;
-    if (revision === this.asked) return;
-    this.asked = revision;
-    this.under_way?.abort();
+    this.request?.abort();
     clearTimeout(this.timer);
+    this.hasFailed = false;
     this.tell(null);
-    this.timer = window.setTimeout(() => void this.fetch(revision), PAUSE_MS);
+    this.timer = window.setTimeout(() => void this.fetch(), PAUSE_MS);
   }
 
-  private async fetch(revision: number): Promise<void> {
+  /** Where the connection was lost, once it is back. */
+  askAgain(): void {
+    if (this.hasFailed) this.ask();
+  }
+
+  private async fetch(): Promise<void> {
     const request = new AbortController();
-    this.under_way = request;
+    this.request = request;
     try {
       const diagnosis = await api.diagnosis(request.signal);
-      if (revision === this.studio.state.value.revision) this.tell(diagnosis);
+      if (!request.signal.aborted) this.tell(diagnosis);
     } catch (error) {
       if (request.signal.aborted) return;
+      this.hasFailed = true;
+      this.tell(error as Error);
       this.studio.heed(error);
-      // After the connection is back it is asked again.
-      this.asked = -1;
-      if (revision === this.studio.state.value.revision) this.tell(error as Error);
     }
   }
 }

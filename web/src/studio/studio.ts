@@ -8,7 +8,7 @@ import type { ErrorLine } from './error_line';
 /** Whether the server answers; `refused` where it does, but no longer to this page's address. */
 export type Connection = 'there' | 'lost' | 'refused';
 
-const POLL_MS = 2000;
+const POLL_MS = 3000;
 const LONGEST_WAIT_MS = 10_000;
 
 export class Studio {
@@ -85,13 +85,10 @@ export class Studio {
   private async poll(): Promise<void> {
     const wasAway = this.connection.value !== 'there';
     try {
-      const { revision } = await api.revision();
+      const state = await api.state();
+      // An act that is under way brings a newer one. A server that was started anew counts anew.
+      if (this.busy.value === 0 && state.revision !== this.state.value.revision) this.state.set(state);
       this.answered();
-      if ((wasAway || revision !== this.state.value.revision) && this.busy.value === 0) {
-        const state = await api.state();
-        // A server that was started anew counts from its session's number.
-        if (state.revision !== this.state.value.revision) this.state.set(state);
-      }
     } catch (error) {
       const longer = Math.min(2 * this.wait, LONGEST_WAIT_MS);
       this.heed(error);

@@ -36,11 +36,16 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
     missingStatus: element('div', {}, missingLine.root),
   });
   const diagnoser = new Diagnoser(studio, (answer) => tell(page, answer));
+  let shown = '';
   studio.state.watch((now) => {
+    // A draft changes the state, but nothing that is drawn.
+    const drawn = JSON.stringify(now.report);
+    if (drawn === shown) return;
+    shown = drawn;
     page.show(now.report);
     diagnoser.ask();
   });
-  studio.connection.watch((connection) => { if (connection === 'there') diagnoser.ask(); });
+  studio.connection.watch((connection) => { if (connection === 'there') diagnoser.askAgain(); });
 }
 
 function tell(page: ReportPage, answer: Diagnosis | Error | null): void {
