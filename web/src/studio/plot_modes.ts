@@ -6,11 +6,11 @@ import { MODES } from '../plots/pose_acts';
 import type { ErrorLine } from './error_line';
 import type { Studio } from './studio';
 
-const WORDS: Record<Mode, string> = {
-  look: 'look',
-  mark: 'mark a pose wrong (click it; also Shift-click)',
-  time: 'move a pose in time (drag it; also Alt-drag)',
-  noise: 'change the noise (drag the edge of the grey band)',
+const WORDS: Record<Mode, [name: string, how: string]> = {
+  look: ['look', 'Shift-click marks a pose wrong, Alt-drag moves it in time, whatever is chosen here.'],
+  mark: ['mark wrong', 'Click a pose to leave it out of the fit; click it again to take it back.'],
+  time: ['move in time', 'Drag a pose to the left or right, up to its neighbours.'],
+  noise: ['noise', 'Drag the edge of the grey band, ±2 σ.'],
 };
 
 export class PlotModes implements PoseActs {
@@ -18,14 +18,18 @@ export class PlotModes implements PoseActs {
   mode: Mode = 'look';
 
   constructor(private readonly studio: Studio, private readonly line: ErrorLine) {
-    this.root = element('fieldset', { class: 'modes' },
-      element('legend', {}, 'The mouse in plots'),
-      ...MODES.map((mode) =>
-        element('label', {},
-          element('input', {
-            type: 'radio', name: 'plot-mode', checked: mode === this.mode, 'data-testid': `mode-${mode}`,
-            onchange: () => { this.mode = mode; },
-          }), WORDS[mode])));
+    const how = element('p', { class: 'hint' }, WORDS[this.mode][1]);
+    const choices = MODES.map((mode) =>
+      element('label', {},
+        element('input', {
+          type: 'radio', name: 'plot-mode', checked: mode === this.mode, 'data-testid': `mode-${mode}`,
+          onchange: () => {
+            this.mode = mode;
+            how.textContent = WORDS[mode][1];
+          },
+        }), WORDS[mode][0]));
+    this.root = element('div', { class: 'modes' },
+      element('fieldset', {}, element('legend', {}, 'The mouse in plots'), ...choices), how);
   }
 
   isMarked(body: string, observation: number): boolean {

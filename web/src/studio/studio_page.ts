@@ -37,15 +37,31 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
   });
   const diagnoser = new Diagnoser(studio, (answer) => tell(page, answer));
   let shown = '';
-  studio.state.watch((now) => {
+  const show = (): void => {
+    const { report } = studio.state.value;
     // A draft changes the state, but nothing that is drawn.
-    const drawn = JSON.stringify(now.report);
+    const drawn = JSON.stringify(report);
     if (drawn === shown) return;
     shown = drawn;
-    page.show(now.report);
+    page.show(report);
     diagnoser.ask();
-  });
+  };
+  show();
+  studio.state.watch(afterPaint(show));
   studio.connection.watch((connection) => { if (connection === 'there') diagnoser.askAgain(); });
+}
+
+/** Later, once what was changed already is on the screen: the error's fall comes before all plots. */
+function afterPaint(act: () => void): () => void {
+  let isDue = false;
+  return () => {
+    if (isDue) return;
+    isDue = true;
+    requestAnimationFrame(() => setTimeout(() => {
+      isDue = false;
+      act();
+    }));
+  };
 }
 
 function tell(page: ReportPage, answer: Diagnosis | Error | null): void {
