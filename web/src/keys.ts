@@ -10,6 +10,7 @@ const KEYS: [key: string, does: string][] = [
   ['i', 'to the impact'],
   [', and .', 'previous and next pose'],
   ['← and →', 'on the slider of time: a thousandth of the whole; on a plot: a pose'],
+  ['arrows in 3D', 'shift the picture; with Shift turn it'],
   ['x', 'exaggerate the difference more'],
   ...VIEWS.map((view, index): [string, string] => [String(index + 1), VIEW_WORDS[view]]),
   ['?', 'this list'],

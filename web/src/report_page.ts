@@ -156,5 +156,8 @@ function whatItIs(report: Report): string {
 
 /** Paper can't be clicked. */
 function openAll(): void {
-  for (const details of document.querySelectorAll('details')) details.open = true;
+  const closed = [...document.querySelectorAll<HTMLDetailsElement>('details:not([open])')];
+  for (const details of closed) details.open = true;
+  const closeAgain = (): void => closed.forEach((details) => { details.open = false; });
+  window.addEventListener('afterprint', closeAgain, { once: true });
 }

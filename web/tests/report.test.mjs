@@ -1,7 +1,7 @@
 // The report, opened from disk with the network off.
 
 import assert from 'node:assert/strict';
-import { readFileSync, statSync } from 'node:fs';
+import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { changed, dataOf, folder, launch, open, scene, smash, until } from './browser.mjs';
@@ -240,6 +240,18 @@ test('nothing is loaded from elsewhere, and no script but its own runs', () =>
     assert.equal(await page.locator('[style*=expression], [onclick], [onload]').count(), 0);
   }));
 
+test('without data it says what to do', () =>
+  looked(bare(), async (page) => {
+    assert.match(await page.locator('main').innerText(), /holds no data.*smash report SCENE RESULT/);
+  }));
+
+/** The page as it is built. */
+function bare() {
+  const file = join(folder, 'bare.html');
+  writeFileSync(file, readFileSync(report, 'utf8').replace(/(id="smash-data">)[^]*?(<\/script>)/, '$1"SMASH_DATA"$2'));
+  return file;
+}
+
 const NULLS = {
   'no collision time': (data) => {
     for (const model of data.models) {
@@ -370,6 +382,7 @@ test('on paper 3D is a still picture, plots are drawn, and all is open', () =>
     assert.equal(pdf.subarray(0, 5).toString(), '%PDF-');
     assert.ok(await page.evaluate(() => document.querySelector('.stage-still').width > 100));
     assert.equal(await page.locator('.plot-paper svg').count(), 4);
+    await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
     assert.equal(await page.locator('details:not([open])').count(), 0);
     await page.emulateMedia({ media: 'print' });
     assert.equal(await page.locator('button:visible').count(), 0);

@@ -1,11 +1,11 @@
 // Everything that is drawn of one model of a scene, moved to any time.
 
-import { Group, Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from 'three';
+import { Group, Mesh, MeshBasicMaterial, Sphere, SphereGeometry, Vector3 } from 'three';
 import { singleOutliers } from '../outliers';
 import type { Model, Scene } from '../report';
 import { Arrow } from './arrow';
 import { Differences } from './differences';
-import { extent, reach } from './extent';
+import { reach } from './extent';
 import { Floor } from './floor';
 import type { Palette } from './palette';
 import { Poses } from './poses';
@@ -30,9 +30,10 @@ export class Collision extends Group {
   private readonly solids: Solid[] = [];
   private differences: Differences[] = [];
 
-  constructor(private readonly scene: Scene, private readonly model: Model | null, private readonly colours: Palette) {
+  constructor(
+    private readonly scene: Scene, private readonly model: Model | null, all: Sphere, private readonly colours: Palette,
+  ) {
     super();
-    const all = extent(scene, model);
     this.floor = new Floor(scene, all, colours);
     this.drawn = {
       poses: new Group(), model: new Group(), paths: new Group(), impulse: new Group(), spins: new Group(),

@@ -8,6 +8,9 @@ import type { Body, Outlier } from '../report';
 import { outline } from './outline';
 import type { Palette } from './palette';
 
+/** More outlines are a grey mass, and slow. */
+const MOST_OUTLINES = 300;
+
 export class Poses extends Group {
   private readonly strong: LineMaterial;
   private readonly marked: LineMaterial;
@@ -19,11 +22,14 @@ export class Poses extends Group {
     this.strong = new LineMaterial({ color: colours.ink, linewidth: 2.2 });
     this.marked = new LineMaterial({ color: colours.alarm, linewidth: 1.6 });
     // Many poses overlap: the more there are, the fainter each.
-    const opacity = Math.max(0.12, 0.5 - body.observations.length / 100);
+    const count = body.observations.length;
+    const opacity = Math.max(0.12, 0.5 - count / 100);
+    const stride = Math.ceil(count / MOST_OUTLINES);
     this.ordinary = new LineMaterial({ color: colours.ink, linewidth: 1, transparent: true, opacity });
     const geometry = outline(body.shape);
-    for (const pose of body.observations) {
+    for (const [index, pose] of body.observations.entries()) {
       const isOff = outliers.some((o) => o.body === body.name && Math.abs(o.time - pose.time) < 1e-9);
+      if (index % stride !== 0 && !isOff) continue;
       const lines = new LineSegments2(geometry, isOff ? this.marked : this.ordinary);
       lines.position.set(...pose.position);
       if (pose.orientation) lines.quaternion.copy(threeTurn(pose.orientation));

@@ -26,6 +26,7 @@ export class Stage {
   private collision: Collision | null = null;
   private scene: Scene | null = null;
   private model: Model | null = null;
+  private all = new Sphere();
   private time = 0;
   private exaggeration = 0;
   private readonly hidden = new Set<Layer>();
@@ -69,6 +70,7 @@ export class Stage {
     const isFirst = this.scene === null;
     this.scene = scene;
     this.model = model;
+    this.all = extent(scene, model);
     this.rebuild();
     if (isFirst) this.look('overview');
   }
@@ -80,7 +82,7 @@ export class Stage {
     if (this.collision) dispose(this.collision);
     this.world.clear();
     this.world.background = new Color(colours.ground);
-    this.collision = new Collision(this.scene, this.model, colours);
+    this.collision = new Collision(this.scene, this.model, this.all, colours);
     const sky = new HemisphereLight(0xffffff, 0x9a9080, 1.6);
     sky.position.copy(this.camera.up);
     this.world.add(sky, new AmbientLight(0xffffff, 0.25), this.camera, this.collision);
@@ -133,7 +135,6 @@ export class Stage {
   /** What a view shows: everything, or a few bodies' sizes around one place. */
   private framed(view: View): Sphere {
     const scene = this.scene as Scene;
-    const all = extent(scene, this.model);
     const largest = Math.max(...scene.bodies.map(reach));
     if (view === 'follow' && this.collision?.followed) {
       return new Sphere(this.collision.followed.clone(), 5 * largest);
@@ -143,7 +144,7 @@ export class Stage {
     if ((view === 'impact' || view === 'impulse') && impact) {
       return new Sphere(new Vector3(...impact), 3.5 * largest);
     }
-    return all;
+    return this.all;
   }
 
   private move(by: Vector3): void {
@@ -173,9 +174,9 @@ export class Stage {
     this.isDue = false;
     if (this.scene === null) return;
     const away = this.camera.position.distanceTo(this.controls.target);
-    const reachOfAll = extent(this.scene, this.model).radius;
-    this.camera.near = Math.max(away - 4 * reachOfAll, away / 100);
-    this.camera.far = away + 6 * reachOfAll;
+    const size = this.all.radius;
+    this.camera.near = Math.max(away - 4 * size, away / 100);
+    this.camera.far = away + 6 * size;
     this.camera.updateProjectionMatrix();
     this.renderer.render(this.world, this.camera);
     this.tags.place(this.camera, (layer) => this.collision?.isShown(layer) ?? false);

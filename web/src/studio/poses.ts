@@ -56,15 +56,26 @@ export class Poses {
     const marked = state.edits.marked.filter((pose) => pose.body === body.name).length;
     const moved = state.edits.times.filter((pose) => pose.body === body.name).length;
     const changes = [marked > 0 && `${marked} marked wrong`, moved > 0 && `${moved} at another time`].filter(Boolean).join(', ');
-    const rows = body.observations.map((_, index) => this.row(state, body, index));
+    const isOpen = this.open.has(body.name);
+    const content = element('div', {}, isOpen && this.table(state, body));
     const details = element('details', {
-      open: this.open.has(body.name), 'data-testid': `poses-${body.name}`,
-      ontoggle: () => { if (details.open) this.open.add(body.name); else this.open.delete(body.name); },
+      open: isOpen, 'data-testid': `poses-${body.name}`,
+      ontoggle: () => {
+        if (details.open === this.open.has(body.name)) return;
+        if (details.open) this.open.add(body.name);
+        else this.open.delete(body.name);
+        // Of long films only what is looked at is made.
+        refill(content, details.open && this.table(this.studio.state.value, body));
+      },
     },
-      element('summary', {}, `${body.name}: ${body.observations.length} poses${changes === '' ? '' : `, ${changes}`}`),
-      table(`Poses of ${body.name}, counted from 0; a wrong one is left out of the fit`,
-        [{ head: 'pose' }, { head: 'time, s' }, { head: 'farthest off along an axis', isNumber: true }, { head: 'wrong' }], rows));
+      element('summary', {}, `${body.name}: ${body.observations.length} poses${changes === '' ? '' : `, ${changes}`}`), content);
     return details;
+  }
+
+  private table(state: StudioState, body: Body): HTMLElement {
+    return table(`Poses of ${body.name}, counted from 0; a wrong one is left out of the fit`,
+      [{ head: 'pose' }, { head: 'time, s' }, { head: 'farthest off along an axis', isNumber: true }, { head: 'wrong' }],
+      body.observations.map((_, index) => this.row(state, body, index)));
   }
 
   private row(state: StudioState, body: Body, index: number): Child[] {
