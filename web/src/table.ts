@@ -1,6 +1,6 @@
 // Tables of texts; the first column names the row.
 
-import { element } from './element';
+import { element, freshId } from './element';
 import type { Child } from './element';
 import { NONE } from './numbers';
 
@@ -21,11 +21,14 @@ export function table(caption: string, columns: Column[], rows: Child[][], test?
   const body = rows.map((row) => element('tr', {},
     element('th', { scope: 'row' }, row[0]),
     ...kept.slice(1).map((index) => element('td', { class: kind(index) }, row[index]))));
-  const made = element('table', { 'data-testid': test },
-    element('caption', {}, caption),
+  // Outside of what scrolls, so that one can read all of it.
+  const id = freshId('caption');
+  const made = element('table', { 'data-testid': test, 'aria-labelledby': id },
     element('thead', {}, element('tr', {}, ...head)),
     element('tbody', {}, ...body));
-  return element('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': caption }, made);
+  return element('div', { class: 'table' },
+    element('p', { class: 'caption', id }, caption),
+    element('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-labelledby': id }, made));
 }
 
 function isNothing(cell: Child): boolean {

@@ -3,7 +3,7 @@
 import { element } from '../element';
 import type { Child } from '../element';
 import { NONE, significant, tuple, withDeviation } from '../numbers';
-import type { LedgerEntry, Model } from '../report';
+import type { LedgerEntry, LedgerLine, Model } from '../report';
 import { table } from '../table';
 import { quantityInWords } from '../words';
 
@@ -13,10 +13,11 @@ export function ledger(model: Model): Child[] {
   const rows = lines.map((line): Child[] => {
     const isNew = line.body !== last;
     last = line.body;
+    const isKept = isRounding(line);
     return [
       isNew ? (line.body ?? 'all together') : '', quantityInWords(line.quantity).words,
-      entry(line.before), entry(line.after), entry(line.change),
-      typeof line.change_in_sigma === 'number' ? `${significant(line.change_in_sigma, 2)} σ` : NONE, line.unit,
+      entry(line.before), entry(line.after), isKept ? '0' : entry(line.change),
+      typeof line.change_in_sigma === 'number' && !isKept ? `${significant(line.change_in_sigma, 2)} σ` : NONE, line.unit,
     ];
   });
   return [
@@ -27,6 +28,12 @@ export function ledger(model: Model): Child[] {
       [{ head: 'body' }, { head: 'quantity' }, { head: 'before', isNumber: true }, { head: 'after', isNumber: true },
        { head: 'after − before', isNumber: true }, { head: 'in σ', isNumber: true }, { head: 'unit' }], rows, 'ledger'),
   ];
+}
+
+/** Whether nothing changed but the last digits that a computer has. */
+function isRounding({ before, after, change }: LedgerLine): boolean {
+  const size = (numbers: LedgerEntry): number => Math.hypot(...(numbers.value ?? [NaN]));
+  return size(change) <= 1e-9 * Math.max(size(before), size(after));
 }
 
 function entry({ value, std }: LedgerEntry): string {

@@ -14,7 +14,9 @@ export function summary(report: Report, model: Model | null): HTMLElement[] {
 /** In one sentence whether the model fits, in another what is missing. */
 function verdict(report: Report, model: Model): HTMLElement {
   const { diagnosis, improvement } = report;
-  const missing =
+  // The diagnosis fits for itself: it says nothing of what the paper's method made of the poses.
+  const isRefined = model.result.preset === 'refined';
+  const missing = !isRefined ? null :
     diagnosis && hasEffects(model, diagnosis.model.map(label)) ? diagnosis.explanation : ofLadder(improvement, model);
   const fits = fit(report, model);
   return element('div', { class: `verdict ${fits.isGood === false ? 'bad' : 'good'}`, 'data-testid': 'verdict' },

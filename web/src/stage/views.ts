@@ -47,5 +47,5 @@ function levelMotion(scene: Scene, model: Model | null, up: Vector3): Vector3 {
 export function distance(camera: PerspectiveCamera, ball: Sphere): number {
   const vertical = (camera.fov * Math.PI) / 360;
   const horizontal = Math.atan(Math.tan(vertical) * camera.aspect);
-  return (0.92 * ball.radius) / Math.sin(Math.min(vertical, horizontal));
+  return (0.98 * ball.radius) / Math.sin(Math.min(vertical, horizontal));
 }

@@ -32,7 +32,7 @@ export class Variants {
       significant(variant.restitution, 4),
       this.comparison(state, variant),
     ]);
-    refill(this.content, table('Each act makes a variant, and none is lost: click one to go there',
+    refill(this.content, table(`Each act makes a variant, and none is lost: click one to go there. All is saved in ${state.session_file}`,
       [{ head: 'what was done' }, { head: 'positions', isNumber: true }, ...(hasTurns ? [{ head: 'orientations', isNumber: true }] : []),
        { head: 'χ² / dof', isNumber: true }, ...(hasRatio ? [{ head: 'mass ratio', isNumber: true }] : []),
        { head: 'restitution', isNumber: true }, { head: 'beside' }], rows, 'variants'));
