@@ -73,4 +73,11 @@ export function label(effect: ActiveEffect | Candidate): string {
   return effect.body ? `${name}@${effect.body}` : name;
 }
 
+/** With a capital where it starts with a plain word, and a full stop. */
+export function sentence(text: string): string {
+  const isWord = /^[a-z]+ /.test(text);
+  const start = isWord ? text[0].toUpperCase() + text.slice(1) : text;
+  return /[.!?]$/.test(start) ? start : `${start}.`;
+}
+
 const plain = (name: string): string => name.replaceAll('_', ' ');

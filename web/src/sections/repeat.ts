@@ -15,8 +15,7 @@ export function repeat(report: Report): Child[] {
   }, 'Copy');
   const block = element('pre', { 'data-testid': 'commands', tabindex: 0 }, commands);
   return [
-    block,
-    element('p', { class: 'row' }, copy, copied),
+    ...(commands === '' ? [] : [block, element('p', { class: 'row' }, copy, copied)]),
     element('p', { class: 'hint' }, `Made with smash ${report.made_with.smash} and Ceres Solver ${report.made_with.ceres}.`),
     element('p', { class: 'row' },
       element('button', {

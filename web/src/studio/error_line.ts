@@ -1,6 +1,7 @@
 // What went wrong, said where it arose.
 
 import { element } from '../element';
+import { sentence } from '../words';
 import { ConnectionLost, Refusal } from './api';
 
 export class ErrorLine {
@@ -25,11 +26,4 @@ function inWords(error: unknown): string {
     return `${sentence(place + error.problem)}${mend}`;
   }
   return `Not done: ${String(error)}`;
-}
-
-/** With a capital where it starts with a plain word, and a full stop. */
-function sentence(text: string): string {
-  const isWord = /^[a-z]+ /.test(text);
-  const start = isWord ? text[0].toUpperCase() + text.slice(1) : text;
-  return /[.!?]$/.test(start) ? start : `${start}.`;
 }

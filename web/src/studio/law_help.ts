@@ -4,13 +4,13 @@ import { element } from '../element';
 
 export const LAW_EXAMPLE = `name = "my_drag"
 title = "Air drag of a power of my own"
-scope = "body"                    # parameters of its own for each body; or "scene"
+scope = "body"         # each body has its own; or "scene"
 
 [parameters.k]
 unit = "1/m"
-null = 0.0                        # at this value the law does nothing
+null = 0.0             # at this value it does nothing
 bounds = [0.0, 10.0]
-scale = 0.1                       # a typical size
+scale = 0.1            # a typical size
 
 [law]
 acceleration = "-k * norm(v) * v"

@@ -1,6 +1,7 @@
 // Mistakes in words: the line, a caret under the place, the problem and the mend.
 
 import { element } from '../element';
+import { sentence } from '../words';
 import type { Mistake } from '../studio_state';
 
 export function mistakes(text: string, all: Mistake[]): HTMLElement[] {
@@ -11,6 +12,6 @@ export function mistakes(text: string, all: Mistake[]): HTMLElement[] {
     return element('div', { class: 'mistake', 'data-testid': 'mistake' },
       element('p', { class: 'label' }, `Line ${mistake.line}`),
       element('pre', {}, `${line}\n${caret}`),
-      element('p', {}, mistake.problem, mistake.mend === null ? '' : `. ${mistake.mend}`));
+      element('p', {}, sentence(mistake.problem), mistake.mend === null ? '' : ` ${sentence(mistake.mend)}`));
   });
 }

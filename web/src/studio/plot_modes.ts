@@ -29,7 +29,7 @@ export class PlotModes implements PoseActs {
           },
         }), WORDS[mode][0]));
     this.root = element('div', { class: 'modes' },
-      element('fieldset', {}, element('legend', {}, 'The mouse in plots'), ...choices), how);
+      element('fieldset', {}, element('legend', {}, 'Mouse in plots'), ...choices), how);
   }
 
   isMarked(body: string, observation: number): boolean {

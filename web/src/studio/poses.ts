@@ -17,7 +17,7 @@ export class Poses {
   private readonly open = new Set<string>();
 
   constructor(private readonly studio: Studio, private readonly line: ErrorLine) {
-    this.root = element('section', { 'aria-label': 'Poses and noise' },
+    this.root = element('section', { 'aria-label': 'Poses and noise', class: 'poses' },
       element('h2', {}, 'Poses and noise'), line.root, this.noise, this.lists);
     studio.state.watch((state) => this.show(state));
   }

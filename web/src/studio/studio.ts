@@ -16,6 +16,8 @@ export class Studio {
   readonly connection = new Signal<Connection>('there');
   /** How many acts are under way. */
   readonly busy = new Signal(0);
+  /** Errors that are still to be seen: until something succeeds. */
+  private readonly told = new Set<ErrorLine>();
   private queue: Promise<unknown> = Promise.resolve();
   private wait = POLL_MS;
   private retry = 0;
@@ -42,10 +44,12 @@ export class Studio {
     const done = this.queue.then(async () => {
       try {
         this.take(await request());
-        line.clear();
+        for (const told of this.told) told.clear();
+        this.told.clear();
         return true;
       } catch (error) {
         line.tell(error);
+        this.told.add(line);
         this.heed(error);
         return false;
       } finally {
