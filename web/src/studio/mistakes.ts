@@ -12,6 +12,6 @@ export function mistakes(text: string, all: Mistake[]): HTMLElement[] {
     return element('div', { class: 'mistake', 'data-testid': 'mistake' },
       element('p', { class: 'label' }, `Line ${mistake.line}`),
       element('pre', {}, `${line}\n${caret}`),
-      element('p', {}, sentence(mistake.problem), mistake.mend === null ? '' : ` ${sentence(mistake.mend)}`));
+      element('p', {}, sentence(mistake.problem + (mistake.mend === null ? '' : `; ${mistake.mend}`))));
   });
 }
