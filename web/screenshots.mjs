@@ -10,8 +10,14 @@ const report = join(folder, 'report.html');
 smash('report', scene('thrown_ball_drag'), '-o', report);
 
 const browser = await launch();
-for (const [name, colorScheme] of [['report', 'light'], ['report-dark', 'dark']]) {
-  const { page, close } = await open(browser, report, { colorScheme, viewport: { width: 1280, height: 1060 } });
+for (const [name, colorScheme] of [
+  ['report', 'light'],
+  ['report-dark', 'dark'],
+]) {
+  const { page, close } = await open(browser, report, {
+    colorScheme,
+    viewport: { width: 1280, height: 1060 },
+  });
   // The base model, which misses: what one wants to see first.
   await page.getByLabel('base model').check();
   await page.getByTestId('exaggeration').selectOption('5');

@@ -11,8 +11,18 @@ export function residualsCsv(report: Report): string {
     for (const series of model.series) {
       const unit = series.channel === 'orientation' ? 'rad' : 'm';
       for (const point of series.points) {
-        rows.push([model.name, series.body, series.axis, series.channel, point.observation, point.time,
-          point.segment, point.value, unit, series.sigma ?? '']);
+        rows.push([
+          model.name,
+          series.body,
+          series.axis,
+          series.channel,
+          point.observation,
+          point.time,
+          point.segment,
+          point.value,
+          unit,
+          series.sigma ?? '',
+        ]);
       }
     }
   }

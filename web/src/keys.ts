@@ -20,15 +20,35 @@ export class Keys {
   readonly dialog: HTMLDialogElement;
   readonly button: HTMLButtonElement;
 
-  constructor(private readonly clock: Clock, private readonly stage: () => StageSection | null) {
-    this.dialog = element('dialog', { 'aria-label': 'Keys', 'data-testid': 'keys' },
+  constructor(
+    private readonly clock: Clock,
+    private readonly stage: () => StageSection | null,
+  ) {
+    this.dialog = element(
+      'dialog',
+      { 'aria-label': 'Keys', 'data-testid': 'keys' },
       element('h2', {}, 'Keys'),
-      element('dl', { class: 'keys' },
-        ...KEYS.flatMap(([key, does]) => [element('dt', {}, element('kbd', {}, key)), element('dd', {}, does)])),
-      element('form', { method: 'dialog' }, element('button', {}, 'Close')));
-    this.button = element('button', {
-      type: 'button', title: 'Keys (?)', 'aria-label': 'Keys', 'data-testid': 'show-keys', onclick: () => this.dialog.showModal(),
-    }, '?');
+      element(
+        'dl',
+        { class: 'keys' },
+        ...KEYS.flatMap(([key, does]) => [
+          element('dt', {}, element('kbd', {}, key)),
+          element('dd', {}, does),
+        ]),
+      ),
+      element('form', { method: 'dialog' }, element('button', {}, 'Close')),
+    );
+    this.button = element(
+      'button',
+      {
+        type: 'button',
+        title: 'Keys (?)',
+        'aria-label': 'Keys',
+        'data-testid': 'show-keys',
+        onclick: () => this.dialog.showModal(),
+      },
+      '?',
+    );
     window.addEventListener('keydown', (event) => this.press(event));
   }
 
@@ -44,7 +64,10 @@ export class Keys {
 
   private actOf(key: string, target: HTMLElement): (() => void) | null {
     // On buttons, boxes and lists the space bar has its own meaning.
-    if (key === ' ') return target.closest('button, input[type=checkbox], input[type=radio], select, summary, a') ? null : () => this.clock.toggle();
+    if (key === ' ')
+      return target.closest('button, input[type=checkbox], input[type=radio], select, summary, a')
+        ? null
+        : () => this.clock.toggle();
     if (key === 'i') return () => this.clock.goToImpact();
     if (key === ',') return () => this.clock.step(-1);
     if (key === '.') return () => this.clock.step(1);
@@ -56,6 +79,8 @@ export class Keys {
 }
 
 function isTyping(target: HTMLElement): boolean {
-  return target.matches('textarea, select, [contenteditable]') ||
-    (target.matches('input') && !target.matches('[type=range], [type=checkbox], [type=radio]'));
+  return (
+    target.matches('textarea, select, [contenteditable]') ||
+    (target.matches('input') && !target.matches('[type=range], [type=checkbox], [type=radio]'))
+  );
 }

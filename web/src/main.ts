@@ -30,8 +30,12 @@ function start(root: HTMLElement, data: unknown): void {
   }
   root.replaceChildren(
     element('h1', {}, 'smash'),
-    element('p', { role: 'alert' },
+    element(
+      'p',
+      { role: 'alert' },
       schema === null
         ? 'This page holds no data. Make one that does: smash report SCENE RESULT -o report.html'
-        : `This page can’t show ${String(schema)}: make it again with the same version of smash.`));
+        : `This page can’t show ${String(schema)}: make it again with the same version of smash.`,
+    ),
+  );
 }

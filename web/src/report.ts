@@ -2,9 +2,26 @@
 // program's own schema.
 
 import type {
-  ActiveEffect, Alternative, BodyMotion, BodyResult, BodyView, CandidateReport, ChannelTest, Estimate, LedgerEntry,
-  LedgerLine, ModelView, Motion, ObservationView, Outlier, ParameterEstimate, Quantity, ResidualPoint,
-  ResidualSeries, ResultResiduals, Rung, SceneView, SmashDiagnosis1, SmashImprovement1, SmashReport1, Track,
+  ActiveEffect,
+  BodyMotion,
+  BodyView,
+  CandidateReport,
+  ChannelTest,
+  Estimate,
+  LedgerEntry,
+  LedgerLine,
+  ModelView,
+  Outlier,
+  ParameterEstimate,
+  Quantity,
+  ResidualPoint,
+  ResidualSeries,
+  Rung,
+  SceneView,
+  SmashDiagnosis1,
+  SmashImprovement1,
+  SmashReport1,
+  Track,
   Unexplained,
 } from './generated/report';
 
@@ -22,6 +39,16 @@ export type Diagnosis = SmashDiagnosis1;
 export type Candidate = CandidateReport;
 export type Improvement = SmashImprovement1;
 export type {
-  ActiveEffect, Alternative, BodyMotion, BodyResult, ChannelTest, Estimate, LedgerEntry, LedgerLine, Motion,
-  ObservationView, Outlier, ParameterEstimate, Quantity, ResultResiduals, Rung, Track, Unexplained,
+  ActiveEffect,
+  BodyMotion,
+  ChannelTest,
+  Estimate,
+  LedgerEntry,
+  LedgerLine,
+  Outlier,
+  ParameterEstimate,
+  Quantity,
+  Rung,
+  Track,
+  Unexplained,
 };

@@ -38,7 +38,10 @@ export class ReportPage {
   private readonly subtitle = element('p', { class: 'subtitle' });
   private readonly summary = element('section', { 'aria-label': 'Summary' });
   private readonly choice = element('div', { class: 'choice' });
-  private readonly look = element('section', { class: 'look', 'aria-label': 'The collision in 3D and its residuals' });
+  private readonly look = element('section', {
+    class: 'look',
+    'aria-label': 'The collision in 3D and its residuals',
+  });
   private readonly missing = section('What is missing');
   private readonly estimates = section('The numbers');
   private readonly ledger = section('The books');
@@ -46,17 +49,32 @@ export class ReportPage {
   private readonly warnings = section('Warnings');
   private readonly repeat = section('Make it again');
 
-  constructor(root: HTMLElement, private readonly live: Live | null = null) {
+  constructor(
+    root: HTMLElement,
+    private readonly live: Live | null = null,
+  ) {
     this.residuals = new ResidualsSection(this.clock, live?.acts ?? null);
     const keys = new Keys(this.clock, () => this.stage);
     root.replaceChildren(
-      element('header', {},
+      element(
+        'header',
+        {},
         element('div', {}, this.title, this.subtitle),
-        element('div', { class: 'row' }, themeSwitch(() => this.repaint()), keys.button)),
+        element(
+          'div',
+          { class: 'row' },
+          themeSwitch(() => this.repaint()),
+          keys.button,
+        ),
+      ),
       ...(live ? [...live.top, this.summary, live.model] : [this.summary]),
-      this.choice, this.look, this.missing.root, ...(live?.sections ?? []),
+      this.choice,
+      this.look,
+      this.missing.root,
+      ...(live?.sections ?? []),
       ...[this.estimates, this.ledger, this.compared, this.warnings, this.repeat].map((one) => one.root),
-      keys.dialog);
+      keys.dialog,
+    );
     window.addEventListener('beforeprint', openAll);
   }
 
@@ -68,14 +86,19 @@ export class ReportPage {
     this.subtitle.textContent = whatItIs(report);
     if (this.stage === null) {
       this.stage = new StageSection(report.scene, this.clock);
-      this.look.replaceChildren(this.stage.root,
-        element('div', {}, ...(this.live ? [this.live.plotTools] : []), this.residuals.root));
+      this.look.replaceChildren(
+        this.stage.root,
+        element('div', {}, ...(this.live ? [this.live.plotTools] : []), this.residuals.root),
+      );
     }
     this.showModel();
     this.compared.fill(report.models.length > 1 ? sideBySide(report) : []);
     if (this.live === null) this.missing.fill(this.whatIsMissing(report));
-    this.warnings.fill(report.warnings.length === 0 ? [] : [
-      element('ul', {}, ...report.warnings.map((one) => element('li', {}, one)))]);
+    this.warnings.fill(
+      report.warnings.length === 0
+        ? []
+        : [element('ul', {}, ...report.warnings.map((one) => element('li', {}, one)))],
+    );
     this.repeat.fill(repeat(report));
   }
 
@@ -84,7 +107,11 @@ export class ReportPage {
     if (this.report === null) return;
     this.report.diagnosis = diagnosis;
     refill(this.summary, ...summary(this.report, this.model));
-    this.missing.fill([...status, ...(this.live ? [this.live.missingStatus] : []), ...this.whatIsMissing(this.report)]);
+    this.missing.fill([
+      ...status,
+      ...(this.live ? [this.live.missingStatus] : []),
+      ...this.whatIsMissing(this.report),
+    ]);
   }
 
   private get model(): Model | null {
@@ -107,19 +134,36 @@ export class ReportPage {
   private fillChoice(report: Report): void {
     if (report.models.length < 2) return this.choice.replaceChildren();
     const choices = report.models.map((model, index) =>
-      element('label', {},
+      element(
+        'label',
+        {},
         element('input', {
-          type: 'radio', name: 'model', id: `model-${index}`, checked: index === this.chosen, 'data-testid': `model-${index}`,
-          onchange: () => { this.chosen = index; this.showModel(); },
-        }), model.name));
-    refill(this.choice, element('fieldset', {}, element('legend', {}, 'Shown in 3D, plots and numbers'), ...choices));
+          type: 'radio',
+          name: 'model',
+          id: `model-${index}`,
+          checked: index === this.chosen,
+          'data-testid': `model-${index}`,
+          onchange: () => {
+            this.chosen = index;
+            this.showModel();
+          },
+        }),
+        model.name,
+      ),
+    );
+    refill(
+      this.choice,
+      element('fieldset', {}, element('legend', {}, 'Shown in 3D, plots and numbers'), ...choices),
+    );
   }
 
   private whatIsMissing(report: Report): Child[] {
     const { diagnosis, improvement } = report;
     return [
       ...(diagnosis ? diagnosisSection(diagnosis, this.live?.adder) : []),
-      ...(improvement && improvement.ladder.length > 0 ? [element('h3', {}, 'The ladder'), ...ladder(improvement)] : []),
+      ...(improvement && improvement.ladder.length > 0
+        ? [element('h3', {}, 'The ladder'), ...ladder(improvement)]
+        : []),
     ];
   }
 
@@ -149,7 +193,10 @@ function section(title: string): Section {
 
 function whatItIs(report: Report): string {
   const { scene } = report;
-  const bodies = scene.bodies.map((body) => `${body.name} (${body.shape.type === 'sphere' ? 'ball' : 'box'}, ${body.observations.length} poses)`);
+  const bodies = scene.bodies.map(
+    (body) =>
+      `${body.name} (${body.shape.type === 'sphere' ? 'ball' : 'box'}, ${body.observations.length} poses)`,
+  );
   if (scene.plane) bodies.push(`${scene.plane.name} (a fixed plane)`);
   return `A collision, reconstructed by smash from measured poses: ${bodies.join(' and ')}.`;
 }
@@ -158,6 +205,9 @@ function whatItIs(report: Report): string {
 function openAll(): void {
   const closed = [...document.querySelectorAll<HTMLDetailsElement>('details:not([open])')];
   for (const details of closed) details.open = true;
-  const closeAgain = (): void => closed.forEach((details) => { details.open = false; });
+  const closeAgain = (): void =>
+    closed.forEach((details) => {
+      details.open = false;
+    });
   window.addEventListener('afterprint', closeAgain, { once: true });
 }

@@ -16,14 +16,19 @@ export function inLight(act: () => void): void {
 }
 
 export function themeSwitch(repaint: () => void): HTMLElement {
-  const choice = element('select', {
-    'aria-label': 'Colours', 'data-testid': 'theme',
-    onchange: () => {
-      if (choice.value === 'auto') delete document.documentElement.dataset.theme;
-      else document.documentElement.dataset.theme = choice.value;
-      repaint();
+  const choice = element(
+    'select',
+    {
+      'aria-label': 'Colours',
+      'data-testid': 'theme',
+      onchange: () => {
+        if (choice.value === 'auto') delete document.documentElement.dataset.theme;
+        else document.documentElement.dataset.theme = choice.value;
+        repaint();
+      },
     },
-  }, ...THEMES.map((theme) => element('option', { value: theme }, WORDS[theme])));
+    ...THEMES.map((theme) => element('option', { value: theme }, WORDS[theme])),
+  );
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
   return choice;
 }

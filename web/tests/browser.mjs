@@ -16,7 +16,12 @@ export const folder = mkdtempSync(join(tmpdir(), 'smash-page-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 
 export function smash(...args) {
-  return execFileSync(SMASH, args, { cwd: folder, encoding: 'utf8', maxBuffer: 1e8, stdio: ['ignore', 'pipe', 'pipe'] });
+  return execFileSync(SMASH, args, {
+    cwd: folder,
+    encoding: 'utf8',
+    maxBuffer: 1e8,
+    stdio: ['ignore', 'pipe', 'pipe'],
+  });
 }
 
 /** 3D is drawn by the processor: test machines have no graphics. */
@@ -26,15 +31,25 @@ export function launch({ has3d = true } = {}) {
     : ['--disable-gpu', '--disable-3d-apis'];
   return chromium.launch({
     executablePath: CHROMIUM,
-    args: ['--no-sandbox', '--no-first-run', '--disable-quic', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync', ...graphics],
+    args: [
+      '--no-sandbox',
+      '--no-first-run',
+      '--disable-quic',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+      ...graphics,
+    ],
   });
 }
 
 /** A page without network, in a window of its own; what it logs as an error is in `errors`. */
 export async function open(browser, file, options = {}) {
   const context = await browser.newContext({
-    offline: true, viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options,
+    offline: true,
+    viewport: { width: 1280, height: 900 },
+    acceptDownloads: true,
+    ...options,
   });
   const page = await context.newPage();
   const errors = [];
@@ -60,7 +75,10 @@ export function changed(file, name, change) {
   change(data);
   const json = JSON.stringify(data).replaceAll('<', '\\u003c');
   const copy = join(folder, name);
-  writeFileSync(copy, readFileSync(file, 'utf8').replace(DATA, (_, head, __, tail) => head + json + tail));
+  writeFileSync(
+    copy,
+    readFileSync(file, 'utf8').replace(DATA, (_, head, __, tail) => head + json + tail),
+  );
   return copy;
 }
 

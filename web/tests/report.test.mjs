@@ -55,7 +55,11 @@ test('3D is drawn, and moves with the slider', () =>
     await slider.fill('120');
     const early = await secondsOf(page);
     assert.match(await timeOf(page), /ms before the impact/);
-    await until(() => canvas.screenshot(), (now) => !now.equals(before), 'the picture');
+    await until(
+      () => canvas.screenshot(),
+      (now) => !now.equals(before),
+      'the picture',
+    );
     await slider.focus();
     await page.keyboard.press('ArrowRight');
     const later = await secondsOf(page);
@@ -85,7 +89,11 @@ test('play runs at the chosen speed, and space pauses it', () =>
     await page.getByTestId('speed').selectOption('0.1');
     await page.locator('h1').click();
     await page.keyboard.press('Space');
-    await until(() => secondsOf(page), (now) => now > 0.02, 'the time');
+    await until(
+      () => secondsOf(page),
+      (now) => now > 0.02,
+      'the time',
+    );
     await page.keyboard.press('Space');
     const stopped = await secondsOf(page);
     await page.waitForTimeout(200);
@@ -100,7 +108,10 @@ test('the cursor in a plot moves the time in 3D, and the other way round', () =>
     await page.mouse.move(box.x + 0.25 * box.width, box.y + box.height / 2);
     const hovered = await secondsOf(page);
     assert.ok(hovered > 0.1 && hovered < 0.3, `${hovered}`);
-    const place = () => page.getByTestId('plot-cursor').evaluateAll((all) => all.map((one) => Math.round(one.getBoundingClientRect().x)));
+    const place = () =>
+      page
+        .getByTestId('plot-cursor')
+        .evaluateAll((all) => all.map((one) => Math.round(one.getBoundingClientRect().x)));
     const there = await place();
     assert.ok(there.length >= 3 && new Set(there).size === 1, `${there}`);
     assert.ok(Math.abs(there[0] - (box.x + 0.25 * box.width)) < 3);
@@ -129,15 +140,25 @@ test('results stand side by side, and one chooses which is drawn', () =>
     const before = await page.getByTestId('stage-canvas').screenshot();
     await page.getByTestId('model-1').check();
     assert.match(await page.getByTestId('verdict').textContent(), /meets the measured poses to their noise/);
-    assert.match(await page.getByTestId('effects').textContent(), /quadratic_drag@ballk0\.11\d+ ± 0\.001\d+1\/m/);
+    assert.match(
+      await page.getByTestId('effects').textContent(),
+      /quadratic_drag@ballk0\.11\d+ ± 0\.001\d+1\/m/,
+    );
     assert.match(await page.getByTestId('residual-plot').first().textContent(), /Like noise/);
     assert.match(await timeOf(page), /the impact$/);
-    await until(() => page.getByTestId('stage-canvas').screenshot(), (now) => !now.equals(before), 'the picture');
+    await until(
+      () => page.getByTestId('stage-canvas').screenshot(),
+      (now) => !now.equals(before),
+      'the picture',
+    );
   }));
 
 /** What a click saves. */
 async function saved(page, test) {
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByTestId(test).first().click()]);
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.getByTestId(test).first().click(),
+  ]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
@@ -146,7 +167,9 @@ test('numbers and plots are saved as files', () =>
     const json = await saved(page, 'save-json');
     assert.equal(JSON.stringify(JSON.parse(json.bytes)), JSON.stringify(dataOf(report)));
     const csv = (await saved(page, 'save-csv')).bytes.toString().trim().split('\n');
-    const points = dataOf(report).models.flatMap((model) => model.series).flatMap((series) => series.points);
+    const points = dataOf(report)
+      .models.flatMap((model) => model.series)
+      .flatMap((series) => series.points);
     assert.equal(csv.length, points.length + 1);
     assert.match(csv[1], /^base\.json,ball,along_velocity,position,0,0,before,-0\.02\d+,m,0\.001$/);
     const svg = await saved(page, 'save-svg');
@@ -180,14 +203,20 @@ test('keys do what their list says', () =>
     for (const key of ['2', '3', '4', '5', '6', '7', '1', 'x']) {
       const before = await canvas.screenshot();
       await page.keyboard.press(key);
-      await until(() => canvas.screenshot(), (now) => !now.equals(before), `the picture after ${key}`);
+      await until(
+        () => canvas.screenshot(),
+        (now) => !now.equals(before),
+        `the picture after ${key}`,
+      );
     }
     assert.equal(await page.getByTestId('exaggeration').inputValue(), '1');
   }));
 
 test('all that can be used is reached by Tab, and seen there', () =>
   looked(report, async (page) => {
-    const wanted = await page.locator('button:visible, select:visible, input:visible, summary:visible').count();
+    const wanted = await page
+      .locator('button:visible, select:visible, input:visible, summary:visible')
+      .count();
     const reached = new Set();
     for (let presses = 0; presses < 150; presses += 1) {
       await page.keyboard.press('Tab');
@@ -248,7 +277,10 @@ test('without data it says what to do', () =>
 /** The page as it is built. */
 function bare() {
   const file = join(folder, 'bare.html');
-  writeFileSync(file, readFileSync(report, 'utf8').replace(/(id="smash-data">)[^]*?(<\/script>)/, '$1"SMASH_DATA"$2'));
+  writeFileSync(
+    file,
+    readFileSync(report, 'utf8').replace(/(id="smash-data">)[^]*?(<\/script>)/, '$1"SMASH_DATA"$2'),
+  );
   return file;
 }
 
@@ -262,7 +294,14 @@ const NULLS = {
       model.result.contact_point = null;
       model.result.normal = null;
       model.result.impulse = [0, 0, 0];
-      Object.assign(model.residuals, { structure: [], channels: [], findings: [], outliers: [], position_rmse: null, reason: 'no motion is known' });
+      Object.assign(model.residuals, {
+        structure: [],
+        channels: [],
+        findings: [],
+        outliers: [],
+        position_rmse: null,
+        reason: 'no motion is known',
+      });
     }
   },
   'no spin, no noise, no diagnosis': (data) => {
@@ -275,10 +314,12 @@ const NULLS = {
     for (const model of data.models) {
       for (const series of model.series) series.sigma = null;
       for (const body of model.motion.bodies) {
-        for (const track of [body.before, body.after]) Object.assign(track, { orientations: null, spins: null });
+        for (const track of [body.before, body.after])
+          Object.assign(track, { orientations: null, spins: null });
       }
       for (const line of model.residuals.ledger.lines) {
-        for (const entry of [line.before, line.after, line.change]) Object.assign(entry, { value: null, std: [null] });
+        for (const entry of [line.before, line.after, line.change])
+          Object.assign(entry, { value: null, std: [null] });
         line.change_in_sigma = null;
       }
       Object.assign(model.result.fit, { chi2: null, reduced_chi2: null, orientation_rmse: null });
@@ -289,7 +330,10 @@ const NULLS = {
     for (const body of data.scene.bodies) body.observations = body.observations.slice(0, 1);
     data.models = data.models.slice(0, 1);
     data.models[0].motion = null;
-    data.models[0].series = data.models[0].series.map((series) => ({ ...series, points: series.points.slice(0, 1) }));
+    data.models[0].series = data.models[0].series.map((series) => ({
+      ...series,
+      points: series.points.slice(0, 1),
+    }));
     data.models[0].result.collision_time.value = null;
     data.quantities = [];
   },
@@ -303,15 +347,30 @@ const NULLS = {
   },
   'something unexplained, several optima, flags': (data) => {
     Object.assign(data.diagnosis, {
-      verdict: 'unknown_effect', candidates: [], advice: [],
-      unexplained: [{
-        body: 'ball', kind: 'acceleration', delta_chi2: 321, rms: 0.4, mean: [0.1, -0.3, 0],
-        forms: [{ goes_with: 'the position', law: 'acceleration = "-k * p"', share: 0.93, factor: 2.1 }],
-      }],
+      verdict: 'unknown_effect',
+      candidates: [],
+      advice: [],
+      unexplained: [
+        {
+          body: 'ball',
+          kind: 'acceleration',
+          delta_chi2: 321,
+          rms: 0.4,
+          mean: [0.1, -0.3, 0],
+          forms: [{ goes_with: 'the position', law: 'acceleration = "-k * p"', share: 0.93, factor: 2.1 }],
+        },
+      ],
     });
     data.models[0].result.flags = ['several_optima', 'not_converged', 'a_flag_of_the_future'];
     data.models[0].result.alternatives = [
-      { differs_in: 'the segment', delta_chi2: 1.5, mass_ratio: null, restitution: null, collision_time: 0.3 }];
+      {
+        differs_in: 'the segment',
+        delta_chi2: 1.5,
+        mass_ratio: null,
+        restitution: null,
+        collision_time: 0.3,
+      },
+    ];
   },
 };
 
@@ -332,14 +391,15 @@ test('the paper’s results, balls without orientation and two boxes open as wel
   for (const [name, ...options] of [['ball_on_floor', '--preset', 'paper'], ['boxes']]) {
     const file = scene(name, (data) => {
       // Fewer poses are sooner diagnosed.
-      for (const body of data.bodies) body.observations = body.observations?.filter((_, index) => index % 2 === 0);
+      for (const body of data.bodies)
+        body.observations = body.observations?.filter((_, index) => index % 2 === 0);
     });
     smash('reconstruct', file, ...options, '-o', `${name}.result.json`);
     const page = join(folder, `${name}.html`);
     smash('report', file, `${name}.result.json`, '-o', page);
     await looked(page, async (opened) => {
       assert.doesNotMatch(await opened.locator('main').innerText(), /NaN|undefined|null|\[object/);
-      assert.ok(await opened.getByTestId('residual-plot').count() >= 4);
+      assert.ok((await opened.getByTestId('residual-plot').count()) >= 4);
     });
   }
 });
@@ -357,11 +417,15 @@ test('without WebGL it says so, and all else works', async () => {
 
 test('dark is dark, light is light, and one may choose', async () => {
   const ground = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-  await looked(report, async (page) => {
-    assert.equal(await ground(page), 'rgb(20, 23, 27)');
-    await page.getByTestId('theme').selectOption('light');
-    assert.equal(await ground(page), 'rgb(255, 255, 255)');
-  }, { colorScheme: 'dark' });
+  await looked(
+    report,
+    async (page) => {
+      assert.equal(await ground(page), 'rgb(20, 23, 27)');
+      await page.getByTestId('theme').selectOption('light');
+      assert.equal(await ground(page), 'rgb(255, 255, 255)');
+    },
+    { colorScheme: 'dark' },
+  );
   await looked(report, async (page) => {
     assert.equal(await ground(page), 'rgb(255, 255, 255)');
     await page.getByTestId('theme').selectOption('dark');
@@ -370,11 +434,15 @@ test('dark is dark, light is light, and one may choose', async () => {
 });
 
 test('a telephone needs no scrolling sideways', () =>
-  looked(report, async (page) => {
-    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
-    const stage = await page.getByTestId('stage').boundingBox();
-    assert.ok(stage.width > 340 && stage.height >= 240);
-  }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }));
+  looked(
+    report,
+    async (page) => {
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+      const stage = await page.getByTestId('stage').boundingBox();
+      assert.ok(stage.width > 340 && stage.height >= 240);
+    },
+    { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },
+  ));
 
 test('on paper 3D is a still picture, plots are drawn, and all is open', () =>
   looked(report, async (page) => {

@@ -7,12 +7,20 @@ export const RADIUS = 3.4;
 /** Corners of a triangle around (x, y) that looks as large as a circle of `radius`. */
 export function triangle(x: number, y: number, radius: number): [number, number][] {
   const r = 1.35 * radius;
-  return [[x, y - r], [x + 0.87 * r, y + 0.5 * r], [x - 0.87 * r, y + 0.5 * r]];
+  return [
+    [x, y - r],
+    [x + 0.87 * r, y + 0.5 * r],
+    [x - 0.87 * r, y + 0.5 * r],
+  ];
 }
 
 /** Adds the shape to the current path of a canvas. */
 export function trace(
-  context: CanvasRenderingContext2D, segment: Segment, x: number, y: number, radius: number,
+  context: CanvasRenderingContext2D,
+  segment: Segment,
+  x: number,
+  y: number,
+  radius: number,
 ): void {
   if (segment === 'before') {
     context.moveTo(x + radius, y);

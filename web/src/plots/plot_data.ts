@@ -35,7 +35,12 @@ export interface PlotData {
   values: [number, number];
 }
 
-export function plotData(model: Model, series: Series, times: [number, number], acts: PoseActs | null): PlotData {
+export function plotData(
+  model: Model,
+  series: Series,
+  times: [number, number],
+  acts: PoseActs | null,
+): PlotData {
   const isTurn = series.channel === 'orientation';
   const scale = isTurn ? DEGREES : 1000;
   const off = singleOutliers(model).filter(
@@ -61,7 +66,11 @@ export function plotData(model: Model, series: Series, times: [number, number], 
     body: series.body,
     channel: series.channel,
     title: `${series.body}, ${series.label}`,
-    reading: reading(series.body, series.axis, tests.some((test) => test.fails)),
+    reading: reading(
+      series.body,
+      series.axis,
+      tests.some((test) => test.fails),
+    ),
     finding: findings(tests),
     fails: tests.some((test) => test.fails),
     unit: isTurn ? '°' : 'mm',
@@ -69,7 +78,10 @@ export function plotData(model: Model, series: Series, times: [number, number], 
     points,
     impact: model.motion?.collision_time ?? model.result.collision_time.value ?? null,
     times,
-    values: range(points.map((point) => point.value), sigma),
+    values: range(
+      points.map((point) => point.value),
+      sigma,
+    ),
   };
 }
 

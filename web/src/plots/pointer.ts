@@ -33,7 +33,9 @@ export class Pointer {
     over.addEventListener('pointerdown', (event) => this.press(event));
     over.addEventListener('pointerup', () => this.release());
     over.addEventListener('pointercancel', () => this.cancel());
-    over.addEventListener('keydown', (event) => { if (event.key === 'Escape') this.cancel(); });
+    over.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape') this.cancel();
+    });
   }
 
   private move(event: PointerEvent): void {
@@ -85,7 +87,9 @@ export class Pointer {
       const si = data.unit === '°' ? sigma / DEGREES : sigma / 1000;
       this.drag = {
         words: `noise, one σ: ${significant(sigma)} ${data.unit}`,
-        drop: () => { if (sigma > 0) acts.noise(data.channel, si); },
+        drop: () => {
+          if (sigma > 0) acts.noise(data.channel, si);
+        },
       };
     } else {
       const time = Number(plot.posToVal(x, 'x').toFixed(5));
@@ -127,7 +131,9 @@ export class Pointer {
 
   private isAtBand(y: number): boolean {
     const { sigma } = this.data();
-    return sigma !== null &&
-      [2, -2].some((times) => Math.abs(this.plot.valToPos(times * sigma, 'y') - y) < REACH_PX / 2);
+    return (
+      sigma !== null &&
+      [2, -2].some((times) => Math.abs(this.plot.valToPos(times * sigma, 'y') - y) < REACH_PX / 2)
+    );
   }
 }

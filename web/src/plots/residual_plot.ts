@@ -30,20 +30,35 @@ export class ResidualPlot {
   private readonly unwatch: () => void;
   private readonly print = (): void => this.paper.replaceChildren(barePlot(this.data));
 
-  constructor(private data: PlotData, private readonly clock: Clock, acts: PoseActs | null) {
+  constructor(
+    private data: PlotData,
+    private readonly clock: Clock,
+    acts: PoseActs | null,
+  ) {
     const holder = element('div', { class: 'plot-canvas' });
     const readingId = freshId('reading');
-    this.root = element('figure', { class: 'plot', 'data-testid': 'residual-plot', 'data-key': data.key },
+    this.root = element(
+      'figure',
+      { class: 'plot', 'data-testid': 'residual-plot', 'data-key': data.key },
       element('figcaption', {}, this.title, this.savers()),
       element('p', { class: 'hint', id: readingId }, this.finding, this.reading),
-      holder, this.paper, this.readout);
+      holder,
+      this.paper,
+      this.readout,
+    );
     this.plot = new uPlot(this.options(holder), columns(data), holder);
     const { over } = this.plot;
     over.append(this.cursor);
     over.tabIndex = 0;
     over.setAttribute('role', 'img');
     over.setAttribute('aria-describedby', readingId);
-    new Pointer(this.plot, clock, () => this.data, acts, (words) => this.readOut(words));
+    new Pointer(
+      this.plot,
+      clock,
+      () => this.data,
+      acts,
+      (words) => this.readOut(words),
+    );
     over.addEventListener('keydown', (event) => this.step(event));
     this.resized = new ResizeObserver(() => this.fit(holder));
     this.resized.observe(holder);
@@ -84,13 +99,23 @@ export class ResidualPlot {
   private savers(): HTMLElement {
     const name = (ending: string): string => `residuals_${this.data.title}.${ending}`;
     const button = (words: string, test: string, act: () => void): HTMLElement =>
-      element('button', {
-        type: 'button', class: 'small', 'data-testid': test,
-        'aria-label': `Save this plot as ${words}`, onclick: act,
-      }, words);
-    return element('span', { class: 'savers' },
+      element(
+        'button',
+        {
+          type: 'button',
+          class: 'small',
+          'data-testid': test,
+          'aria-label': `Save this plot as ${words}`,
+          onclick: act,
+        },
+        words,
+      );
+    return element(
+      'span',
+      { class: 'savers' },
       button('SVG', 'save-svg', () => save(name('svg'), 'image/svg+xml', svgFile(plotFile(this.data)))),
-      button('PNG', 'save-png', () => saveCanvas(this.plot.ctx.canvas, name('png'))));
+      button('PNG', 'save-png', () => saveCanvas(this.plot.ctx.canvas, name('png'))),
+    );
   }
 
   private options(holder: HTMLElement): uPlot.Options {
@@ -108,8 +133,22 @@ export class ResidualPlot {
         y: { range: () => this.data.values },
       },
       axes: [
-        { stroke: ink, grid, font, size: 28, ticks: { show: false }, values: (_, splits) => splits.map((split) => `${short(split)} s`) },
-        { stroke: ink, grid, font, size: 48, ticks: { show: false }, values: (_, splits) => splits.map(short) },
+        {
+          stroke: ink,
+          grid,
+          font,
+          size: 28,
+          ticks: { show: false },
+          values: (_, splits) => splits.map((split) => `${short(split)} s`),
+        },
+        {
+          stroke: ink,
+          grid,
+          font,
+          size: 48,
+          ticks: { show: false },
+          values: (_, splits) => splits.map(short),
+        },
       ],
       series: [{}, { show: true, paths: () => null, points: { show: false } }],
       hooks: {

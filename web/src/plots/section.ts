@@ -12,7 +12,10 @@ export class ResidualsSection {
   readonly root = element('div', { class: 'residuals' });
   private plots = new Map<string, ResidualPlot>();
 
-  constructor(private readonly clock: Clock, private readonly acts: PoseActs | null) {}
+  constructor(
+    private readonly clock: Clock,
+    private readonly acts: PoseActs | null,
+  ) {}
 
   show(scene: Scene, model: Model | null): void {
     const times: [number, number] = [this.clock.start, this.clock.end];
@@ -37,20 +40,30 @@ export class ResidualsSection {
     this.plots = new Map(all.map((data) => [data.key, new ResidualPlot(data, this.clock, this.acts)]));
     const groups = scene.bodies.map((body) => {
       const own = all.filter((data) => data.body === body.name);
-      return element('section', { class: 'plots-of-body' },
+      return element(
+        'section',
+        { class: 'plots-of-body' },
         element('h3', {}, body.name),
         ...own.map((data) => this.plots.get(data.key)?.root ?? null),
-        own.length === 0 && element('p', { class: 'hint' }, 'No residuals: ', missing(model)));
+        own.length === 0 && element('p', { class: 'hint' }, 'No residuals: ', missing(model)),
+      );
     });
     this.root.replaceChildren(legend(), ...groups);
   }
 }
 
 function legend(): HTMLElement {
-  const key = (side: string, shape: string): HTMLElement => element('span', { class: side, 'aria-hidden': 'true' }, shape);
-  return element('p', { class: 'hint plots-legend' },
-    key('before', '●'), ' before and ', key('after', '▲'), ' after the impact (dashed line), ◎ outliers. ',
-    'Point at a plot: 3D shows that moment, and the line follows in all plots.');
+  const key = (side: string, shape: string): HTMLElement =>
+    element('span', { class: side, 'aria-hidden': 'true' }, shape);
+  return element(
+    'p',
+    { class: 'hint plots-legend' },
+    key('before', '●'),
+    ' before and ',
+    key('after', '▲'),
+    ' after the impact (dashed line), ◎ outliers. ',
+    'Point at a plot: 3D shows that moment, and the line follows in all plots.',
+  );
 }
 
 function missing(model: Model | null): string {

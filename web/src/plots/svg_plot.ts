@@ -18,8 +18,13 @@ interface Frame {
 const ALONE: Frame = { width: 720, height: 260, left: 64, top: 44, right: 708, bottom: 210 };
 const BARE: Frame = { width: 420, height: 150, left: 48, top: 8, right: 412, bottom: 126 };
 const COLOURS = {
-  ink: '#1b1f24', faint: '#8a9099', grid: '#e4e6ea', band: '#e3e3e3',
-  before: '#0072b2', after: '#d55e00', alarm: '#000000',
+  ink: '#1b1f24',
+  faint: '#8a9099',
+  grid: '#e4e6ea',
+  band: '#e3e3e3',
+  before: '#0072b2',
+  after: '#d55e00',
+  alarm: '#000000',
 };
 
 export function plotFile(data: PlotData): SVGSVGElement {
@@ -37,18 +42,25 @@ export function barePlot(data: PlotData): SVGSVGElement {
 function drawn(data: PlotData, frame: Frame, explanation: SVGElement[]): SVGSVGElement {
   const x = scale(data.times, frame.left, frame.right);
   const y = scale(data.values, frame.bottom, frame.top);
-  return svg('svg', {
-    xmlns: 'http://www.w3.org/2000/svg', viewBox: `0 0 ${frame.width} ${frame.height}`,
-    'font-family': 'system-ui, sans-serif', role: 'img', 'aria-label': `Residuals of ${data.title}`,
-  },
+  return svg(
+    'svg',
+    {
+      xmlns: 'http://www.w3.org/2000/svg',
+      viewBox: `0 0 ${frame.width} ${frame.height}`,
+      'font-family': 'system-ui, sans-serif',
+      role: 'img',
+      'aria-label': `Residuals of ${data.title}`,
+    },
     svg('rect', { width: frame.width, height: frame.height, fill: '#ffffff' }),
     band(data, frame, y),
     ...ticks(data.values).map((value) => gridLine(value, frame, y(value))),
     ...ticks(data.times).map((time) =>
-      words(`${short(time)} s`, { x: x(time), y: frame.bottom + 16, 'text-anchor': 'middle' })),
+      words(`${short(time)} s`, { x: x(time), y: frame.bottom + 16, 'text-anchor': 'middle' }),
+    ),
     data.impact === null ? null : impactLine(x(data.impact), frame),
     ...data.points.map((point) => mark(point, x(point.time), y(point.value))),
-    ...explanation);
+    ...explanation,
+  );
 }
 
 function words(text: string, at: Record<string, string | number>): SVGElement {
@@ -73,22 +85,41 @@ function band(data: PlotData, frame: Frame, y: (value: number) => number): SVGEl
   if (!data.sigma) return null;
   const top = y(2 * data.sigma);
   return svg('rect', {
-    x: frame.left, y: top, width: frame.right - frame.left, height: y(-2 * data.sigma) - top, fill: COLOURS.band,
+    x: frame.left,
+    y: top,
+    width: frame.right - frame.left,
+    height: y(-2 * data.sigma) - top,
+    fill: COLOURS.band,
   });
 }
 
 function gridLine(value: number, frame: Frame, y: number): SVGElement {
-  return svg('g', {},
+  return svg(
+    'g',
+    {},
     svg('line', {
-      x1: frame.left, x2: frame.right, y1: y, y2: y, stroke: value === 0 ? COLOURS.faint : COLOURS.grid,
+      x1: frame.left,
+      x2: frame.right,
+      y1: y,
+      y2: y,
+      stroke: value === 0 ? COLOURS.faint : COLOURS.grid,
     }),
-    svg('text', { x: frame.left - 6, y: y + 4, 'text-anchor': 'end', 'font-size': 12, fill: COLOURS.ink },
-      short(value)));
+    svg(
+      'text',
+      { x: frame.left - 6, y: y + 4, 'text-anchor': 'end', 'font-size': 12, fill: COLOURS.ink },
+      short(value),
+    ),
+  );
 }
 
 function impactLine(x: number, frame: Frame): SVGElement {
   return svg('line', {
-    x1: x, x2: x, y1: frame.top, y2: frame.bottom, stroke: COLOURS.ink, 'stroke-dasharray': '4 3',
+    x1: x,
+    x2: x,
+    y1: frame.top,
+    y2: frame.bottom,
+    stroke: COLOURS.ink,
+    'stroke-dasharray': '4 3',
   });
 }
 
@@ -98,11 +129,25 @@ function mark(point: PlotPoint, x: number, y: number): SVGElement {
   const shape =
     point.segment === 'before'
       ? svg('circle', { cx: x, cy: y, r: RADIUS, fill, stroke: colour })
-      : svg('polygon', { points: triangle(x, y, RADIUS).map((corner) => corner.map((v) => v.toFixed(2)).join()).join(' '), fill, stroke: colour });
-  const ring = svg('circle', { cx: x, cy: y, r: 2.2 * RADIUS, fill: 'none', stroke: COLOURS.alarm, 'stroke-width': 2 });
+      : svg('polygon', {
+          points: triangle(x, y, RADIUS)
+            .map((corner) => corner.map((v) => v.toFixed(2)).join())
+            .join(' '),
+          fill,
+          stroke: colour,
+        });
+  const ring = svg('circle', {
+    cx: x,
+    cy: y,
+    r: 2.2 * RADIUS,
+    fill: 'none',
+    stroke: COLOURS.alarm,
+    'stroke-width': 2,
+  });
   const far = 2 * RADIUS;
   const cross = svg('path', {
-    d: `M${x - far} ${y - far}L${x + far} ${y + far}M${x - far} ${y + far}L${x + far} ${y - far}`, stroke: colour,
+    d: `M${x - far} ${y - far}L${x + far} ${y + far}M${x - far} ${y + far}L${x + far} ${y - far}`,
+    stroke: colour,
   });
   return svg('g', {}, shape, point.isOff ? ring : null, point.isMarked ? cross : null);
 }
@@ -113,11 +158,15 @@ function legend(data: PlotData, frame: Frame): SVGElement[] {
     svg('text', { x, y: y + 4, 'font-size': 12, fill: COLOURS.ink }, words);
   const point = { observation: 0, time: 0, value: 0, isOff: false, isMarked: false };
   return [
-    mark({ ...point, segment: 'before' }, frame.left + 4, y), at(frame.left + 14, 'before the impact'),
-    mark({ ...point, segment: 'after' }, frame.left + 134, y), at(frame.left + 144, 'after it'),
+    mark({ ...point, segment: 'before' }, frame.left + 4, y),
+    at(frame.left + 14, 'before the impact'),
+    mark({ ...point, segment: 'after' }, frame.left + 134, y),
+    at(frame.left + 144, 'after it'),
     ...(data.sigma
-      ? [svg('rect', { x: frame.left + 208, y: y - 6, width: 16, height: 12, fill: COLOURS.band }),
-         at(frame.left + 230, `±2 σ = ±${significant(2 * data.sigma, 3)} ${data.unit}`)]
+      ? [
+          svg('rect', { x: frame.left + 208, y: y - 6, width: 16, height: 12, fill: COLOURS.band }),
+          at(frame.left + 230, `±2 σ = ±${significant(2 * data.sigma, 3)} ${data.unit}`),
+        ]
       : []),
   ];
 }

@@ -10,40 +10,64 @@ import { parameterInWords } from './estimates';
 
 /** `adder` makes a button that adds an effect; a report has none. */
 export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): Child[] {
-  const asked = diagnosis.model.length === 0 ? 'the base model' : `the base model with ${diagnosis.model.map(label).join(', ')}`;
+  const asked =
+    diagnosis.model.length === 0
+      ? 'the base model'
+      : `the base model with ${diagnosis.model.map(label).join(', ')}`;
   return [
     element('p', { class: 'label' }, `Asked of ${asked}`),
     element('p', { class: 'lead', 'data-testid': 'explanation' }, diagnosis.explanation),
     diagnosis.candidates.length > 0 && candidates(diagnosis, adder),
-    element('p', { class: 'hint' },
+    element(
+      'p',
+      { class: 'hint' },
       `The probability that nothing is missing: ${probability(diagnosis.probability_of_nothing)}. ` +
-      'A p-value counts all candidates. Held out: how far the fit misses positions that it hasn’t seen, without and with the effect.'),
+        'A p-value counts all candidates. Held out: how far the fit misses positions that it hasn’t seen, without and with the effect.',
+    ),
     ...(diagnosis.unexplained ?? []).map(unexplained),
-    diagnosis.advice.length > 0 && element('div', {},
-      element('p', { class: 'label' }, 'Next'),
-      element('ul', { 'data-testid': 'advice' }, ...diagnosis.advice.map((one) => element('li', {}, one)))),
+    diagnosis.advice.length > 0 &&
+      element(
+        'div',
+        {},
+        element('p', { class: 'label' }, 'Next'),
+        element('ul', { 'data-testid': 'advice' }, ...diagnosis.advice.map((one) => element('li', {}, one))),
+      ),
   ];
 }
 
 function candidates(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): HTMLElement {
   const columns = [
-    { head: 'candidate' }, { head: 'probability', isNumber: true }, { head: 'p-value', isNumber: true },
-    { head: 'Δχ²', isNumber: true }, { head: 'held out', isNumber: true }, { head: 'parameters', isProse: true },
+    { head: 'candidate' },
+    { head: 'probability', isNumber: true },
+    { head: 'p-value', isNumber: true },
+    { head: 'Δχ²', isNumber: true },
+    { head: 'held out', isNumber: true },
+    { head: 'parameters', isProse: true },
     { head: 'can’t be told from', isProse: true },
   ];
   const rows = diagnosis.candidates.map((candidate): Child[] => [
     element('span', { class: candidate.stands_out ? 'stands-out' : null }, label(candidate)),
-    probability(candidate.probability), pValue(candidate.p_value), significant(candidate.delta_chi2, 4),
-    heldOut(candidate), parameters(candidate), candidate.indistinguishable_from.join(', ') || NONE,
+    probability(candidate.probability),
+    pValue(candidate.p_value),
+    significant(candidate.delta_chi2, 4),
+    heldOut(candidate),
+    parameters(candidate),
+    candidate.indistinguishable_from.join(', ') || NONE,
     ...(adder ? [adder(label(candidate))] : []),
   ]);
-  return table('Candidates, the best first; bold ones stand out of the noise and predict better',
-    adder ? [...columns, { head: 'add' }] : columns, rows, 'candidates');
+  return table(
+    'Candidates, the best first; bold ones stand out of the noise and predict better',
+    adder ? [...columns, { head: 'add' }] : columns,
+    rows,
+    'candidates',
+  );
 }
 
 function heldOut(candidate: Candidate): string {
   const { heldout_rmse_before: before, heldout_rmse_after: after } = candidate;
-  return typeof before === 'number' && typeof after === 'number' ? `${length(before)} → ${length(after)}` : NONE;
+  return typeof before === 'number' && typeof after === 'number'
+    ? `${length(before)} → ${length(after)}`
+    : NONE;
 }
 
 function parameters(candidate: Candidate): string {
@@ -54,12 +78,31 @@ function parameters(candidate: Candidate): string {
 
 function unexplained(force: Unexplained): HTMLElement {
   const unit = force.kind === 'torque' ? 'm²/s² per kg' : 'm/s²';
-  const forms = force.forms.map((form): Child[] =>
-    [form.goes_with, `${significant(100 * form.share, 3)} %`, significant(form.factor), element('code', {}, form.law)]);
-  return element('div', { 'data-testid': 'unexplained' },
-    element('p', {},
+  const forms = force.forms.map((form): Child[] => [
+    form.goes_with,
+    `${significant(100 * form.share, 3)} %`,
+    significant(form.factor),
+    element('code', {}, form.law),
+  ]);
+  return element(
+    'div',
+    { 'data-testid': 'unexplained' },
+    element(
+      'p',
+      {},
       `Left over on ${force.body}: a ${force.kind === 'torque' ? 'torque' : 'force'} of ${significant(force.rms)} ${unit} ` +
-      `(root mean square), on average ${tuple(force.mean)} ${unit}; χ² would fall by ${significant(force.delta_chi2, 4)}.`),
-    forms.length > 0 && table('What it goes with, the best first: laws to try',
-      [{ head: 'it goes with' }, { head: 'explains', isNumber: true }, { head: 'factor, SI', isNumber: true }, { head: 'as a law' }], forms));
+        `(root mean square), on average ${tuple(force.mean)} ${unit}; χ² would fall by ${significant(force.delta_chi2, 4)}.`,
+    ),
+    forms.length > 0 &&
+      table(
+        'What it goes with, the best first: laws to try',
+        [
+          { head: 'it goes with' },
+          { head: 'explains', isNumber: true },
+          { head: 'factor, SI', isNumber: true },
+          { head: 'as a law' },
+        ],
+        forms,
+      ),
+  );
 }

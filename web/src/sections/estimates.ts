@@ -39,16 +39,29 @@ function deviationsOf(report: Report, model: Model): Deviations {
 function scalars(model: Model): HTMLElement {
   const { result } = model;
   const row = (name: string, estimate: Estimate, unit: string): Child[] => [
-    name, withDeviation(estimate.value, estimate.std), interval(estimate), unit, estimate.reason ?? '',
+    name,
+    withDeviation(estimate.value, estimate.std),
+    interval(estimate),
+    unit,
+    estimate.reason ?? '',
   ];
   const rows = [
     ...(result.mass_ratio ? [row('mass ratio m_b / m_a', result.mass_ratio, '')] : []),
     row('restitution c', result.restitution, ''),
     row('collision time t_c', result.collision_time, 's'),
   ];
-  return table('Estimates: value ± σ, and the interval that holds the truth in 95 of 100 collisions',
-    [{ head: 'quantity' }, { head: 'value ± σ', isNumber: true }, { head: '95 % interval', isNumber: true },
-     { head: 'unit' }, { head: 'note', isProse: true }], rows, 'estimates');
+  return table(
+    'Estimates: value ± σ, and the interval that holds the truth in 95 of 100 collisions',
+    [
+      { head: 'quantity' },
+      { head: 'value ± σ', isNumber: true },
+      { head: '95 % interval', isNumber: true },
+      { head: 'unit' },
+      { head: 'note', isProse: true },
+    ],
+    rows,
+    'estimates',
+  );
 }
 
 function interval(estimate: Estimate): string {
@@ -59,11 +72,26 @@ function interval(estimate: Estimate): string {
 
 function effects(all: ActiveEffect[]): HTMLElement {
   const rows = all.flatMap((effect) =>
-    Object.entries(effect.parameters).map(([name, parameter]): Child[] =>
-      [label(effect), name, parameterInWords(parameter), parameter.unit, parameter.reason ?? '']));
-  return table('Effects in this model, and their parameters',
-    [{ head: 'effect' }, { head: 'parameter' }, { head: 'value ± σ', isNumber: true }, { head: 'unit' }, { head: 'note' }],
-    rows, 'effects');
+    Object.entries(effect.parameters).map(([name, parameter]): Child[] => [
+      label(effect),
+      name,
+      parameterInWords(parameter),
+      parameter.unit,
+      parameter.reason ?? '',
+    ]),
+  );
+  return table(
+    'Effects in this model, and their parameters',
+    [
+      { head: 'effect' },
+      { head: 'parameter' },
+      { head: 'value ± σ', isNumber: true },
+      { head: 'unit' },
+      { head: 'note' },
+    ],
+    rows,
+    'effects',
+  );
 }
 
 /** `0.118 ± 0.0016`; of a vector each number with its own. */
@@ -76,8 +104,13 @@ export function parameterInWords(parameter: ParameterEstimate): string {
 
 function bodies(model: Model, deviations: Deviations): HTMLElement {
   const { result } = model;
-  const row = (of: string, words: string, value: Maybe<Vector>, key: string, unit: string): Child[] =>
-    [of, words, tuple(value, 4), deviations(key), unit];
+  const row = (of: string, words: string, value: Maybe<Vector>, key: string, unit: string): Child[] => [
+    of,
+    words,
+    tuple(value, 4),
+    deviations(key),
+    unit,
+  ];
   const contact = [
     row('contact', 'impulse on the first body J', result.impulse, 'impulse', 'N·s/kg'),
     row('', 'contact point x_c', result.contact_point, 'contact_point', 'm'),
@@ -93,10 +126,23 @@ function bodies(model: Model, deviations: Deviations): HTMLElement {
   const told = result.bodies.filter((body) => body.reason).map((body) => `${body.name}: ${body.reason}`);
   if (!result.contact_point) told.push('Contact point: no spin tells where the impulse passed.');
   const reasons = told.map((reason) => element('p', { class: 'hint' }, reason));
-  return element('div', {},
-    table('The contact, and the bodies at the collision: x, y, z of the world',
-      [{ head: 'body' }, { head: 'quantity' }, { head: 'value', isNumber: true }, { head: 'σ', isNumber: true }, { head: 'unit' }], [...contact, ...rows], 'bodies'),
-    ...reasons);
+  return element(
+    'div',
+    {},
+    table(
+      'The contact, and the bodies at the collision: x, y, z of the world',
+      [
+        { head: 'body' },
+        { head: 'quantity' },
+        { head: 'value', isNumber: true },
+        { head: 'σ', isNumber: true },
+        { head: 'unit' },
+      ],
+      [...contact, ...rows],
+      'bodies',
+    ),
+    ...reasons,
+  );
 }
 
 function noise(model: Model): HTMLElement {
@@ -106,27 +152,60 @@ function noise(model: Model): HTMLElement {
       (typeof noise.orientation === 'number' ? `, ${angle(noise.orientation)} an axis` : '') +
       (noise.estimated ? ', estimated from the residuals.' : ', as stated.')
     : 'This method has no noise model, hence no standard deviations.';
-  const chi2 = typeof fit.chi2 === 'number' ? ` χ² = ${significant(fit.chi2, 4)} with ${fit.dof} degrees of freedom.` : '';
+  const chi2 =
+    typeof fit.chi2 === 'number'
+      ? ` χ² = ${significant(fit.chi2, 4)} with ${fit.dof} degrees of freedom.`
+      : '';
   return element('p', {}, said, chi2);
 }
 
 function alternatives(model: Model): HTMLElement[] {
   const all = model.result.alternatives ?? [];
   if (all.length === 0) return [];
-  return [table('Other solutions that are nearly as good',
-    [{ head: 'differs in' }, { head: 'Δχ²', isNumber: true }, { head: 'mass ratio', isNumber: true },
-     { head: 'restitution', isNumber: true }, { head: 'collision time, s', isNumber: true }],
-    all.map((one) => [one.differs_in, significant(one.delta_chi2), significant(one.mass_ratio, 4),
-      significant(one.restitution, 4), significant(one.collision_time, 5)]))];
+  return [
+    table(
+      'Other solutions that are nearly as good',
+      [
+        { head: 'differs in' },
+        { head: 'Δχ²', isNumber: true },
+        { head: 'mass ratio', isNumber: true },
+        { head: 'restitution', isNumber: true },
+        { head: 'collision time, s', isNumber: true },
+      ],
+      all.map((one) => [
+        one.differs_in,
+        significant(one.delta_chi2),
+        significant(one.mass_ratio, 4),
+        significant(one.restitution, 4),
+        significant(one.collision_time, 5),
+      ]),
+    ),
+  ];
 }
 
 function phases(model: Model): HTMLElement {
   const rows = model.result.phases.map((phase): Child[] => [
-    phase.name, significant(phase.cost_initial), significant(phase.cost_final), phase.iterations,
+    phase.name,
+    significant(phase.cost_initial),
+    significant(phase.cost_final),
+    phase.iterations,
     typeof phase.seconds === 'number' ? significant(phase.seconds * 1000, 2) : NONE,
   ]);
-  return element('details', {}, element('summary', {}, 'How the solver got there'),
-    table(`Phases of the ${model.result.preset} solver`,
-      [{ head: 'phase' }, { head: 'cost at its start', isNumber: true }, { head: 'at its end', isNumber: true },
-       { head: 'iterations', isNumber: true }, { head: 'ms', isNumber: true }], rows, 'phases'));
+  return element(
+    'details',
+    {},
+    element('summary', {}, 'How the solver got there'),
+    table(
+      `Phases of the ${model.result.preset} solver`,
+      [
+        { head: 'phase' },
+        { head: 'cost at its start', isNumber: true },
+        { head: 'at its end', isNumber: true },
+        { head: 'iterations', isNumber: true },
+        { head: 'ms', isNumber: true },
+      ],
+      rows,
+      'phases',
+    ),
+  );
 }

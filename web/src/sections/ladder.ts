@@ -20,31 +20,66 @@ export function ladder(improvement: Improvement): Child[] {
   const dropped = improvement.dropped;
   return [
     element('p', {}, VERDICTS[improvement.verdict]),
-    element('figure', { class: 'plot' },
-      element('figcaption', {},
+    element(
+      'figure',
+      { class: 'plot' },
+      element(
+        'figcaption',
+        {},
         element('span', { class: 'plot-title' }, 'Error by rung, relative to the start'),
-        element('span', { class: 'savers' }, element('button', {
-          type: 'button', class: 'small', 'aria-label': 'Save this plot as SVG', 'data-testid': 'save-ladder',
-          onclick: () => save('ladder.svg', 'image/svg+xml', svgFile(ladderPlot(improvement.ladder))),
-        }, 'SVG'))),
+        element(
+          'span',
+          { class: 'savers' },
+          element(
+            'button',
+            {
+              type: 'button',
+              class: 'small',
+              'aria-label': 'Save this plot as SVG',
+              'data-testid': 'save-ladder',
+              onclick: () => save('ladder.svg', 'image/svg+xml', svgFile(ladderPlot(improvement.ladder))),
+            },
+            'SVG',
+          ),
+        ),
+      ),
       plot,
-      element('p', { class: 'hint' },
-        'Shorter bars are better. An effect that is real shortens the held-out bar, too: it predicts poses that the fit hasn’t seen.')),
-    table('The ladder: each rung adds an effect to those above it',
-      [{ head: 'model' }, { head: 'p-value', isNumber: true }, { head: 'positions', isNumber: true },
-       { head: 'held out', isNumber: true }, { head: 'orientations', isNumber: true }, { head: 'χ² / dof', isNumber: true },
-       { head: 'mass ratio', isNumber: true }, { head: 'restitution', isNumber: true }],
-      improvement.ladder.map(row), 'ladder'),
-    dropped.length > 0 && element('p', {}, `Added on the way, and superfluous in the end: ${dropped.join(', ')}.`),
+      element(
+        'p',
+        { class: 'hint' },
+        'Shorter bars are better. An effect that is real shortens the held-out bar, too: it predicts poses that the fit hasn’t seen.',
+      ),
+    ),
+    table(
+      'The ladder: each rung adds an effect to those above it',
+      [
+        { head: 'model' },
+        { head: 'p-value', isNumber: true },
+        { head: 'positions', isNumber: true },
+        { head: 'held out', isNumber: true },
+        { head: 'orientations', isNumber: true },
+        { head: 'χ² / dof', isNumber: true },
+        { head: 'mass ratio', isNumber: true },
+        { head: 'restitution', isNumber: true },
+      ],
+      improvement.ladder.map(row),
+      'ladder',
+    ),
+    dropped.length > 0 &&
+      element('p', {}, `Added on the way, and superfluous in the end: ${dropped.join(', ')}.`),
   ];
 }
 
 function row(rung: Rung): Child[] {
   return [
     !rung.added ? startInWords(rung) : `+ ${rung.added}`,
-    pValue(rung.p_value), length(rung.position_rmse), length(rung.heldout_position_rmse),
+    pValue(rung.p_value),
+    length(rung.position_rmse),
+    length(rung.heldout_position_rmse),
     angle(rung.orientation_rmse),
-    significant(rung.reduced_chi2), significant(rung.mass_ratio, 4), significant(rung.restitution, 4),
+    significant(rung.reduced_chi2),
+    significant(rung.mass_ratio, 4),
+    significant(rung.restitution, 4),
   ];
 }
 

@@ -15,18 +15,38 @@ export function ledger(model: Model): Child[] {
     last = line.body;
     const isKept = isRounding(line);
     return [
-      isNew ? (line.body ?? 'all together') : '', quantityInWords(line.quantity).words,
-      entry(line.before), entry(line.after), isKept ? '0' : entry(line.change),
-      typeof line.change_in_sigma === 'number' && !isKept ? `${significant(line.change_in_sigma, 2)} σ` : NONE, line.unit,
+      isNew ? (line.body ?? 'all together') : '',
+      quantityInWords(line.quantity).words,
+      entry(line.before),
+      entry(line.after),
+      isKept ? '0' : entry(line.change),
+      typeof line.change_in_sigma === 'number' && !isKept
+        ? `${significant(line.change_in_sigma, 2)} σ`
+        : NONE,
+      line.unit,
     ];
   });
   return [
-    element('p', { class: 'hint' },
+    element(
+      'p',
+      { class: 'hint' },
       `Angular momentum is about ${tuple(about)} m. One impulse at one point keeps both momenta of all together, ` +
-      'and about that point each body’s own angular momentum. The energy lost is the restitution’s.'),
-    table('The books: before, after, and the difference, per kg of the first body',
-      [{ head: 'body' }, { head: 'quantity' }, { head: 'before', isNumber: true }, { head: 'after', isNumber: true },
-       { head: 'after − before', isNumber: true }, { head: 'in σ', isNumber: true }, { head: 'unit' }], rows, 'ledger'),
+        'and about that point each body’s own angular momentum. The energy lost is the restitution’s.',
+    ),
+    table(
+      'The books: before, after, and the difference, per kg of the first body',
+      [
+        { head: 'body' },
+        { head: 'quantity' },
+        { head: 'before', isNumber: true },
+        { head: 'after', isNumber: true },
+        { head: 'after − before', isNumber: true },
+        { head: 'in σ', isNumber: true },
+        { head: 'unit' },
+      ],
+      rows,
+      'ledger',
+    ),
   ];
 }
 

@@ -9,23 +9,50 @@ import { save } from '../save';
 export function repeat(report: Report): Child[] {
   const commands = report.commands.join('\n');
   const copied = element('span', { role: 'status', class: 'hint' });
-  const copy = element('button', {
-    type: 'button', 'data-testid': 'copy-commands',
-    onclick: () => { void copyText(commands, block).then((words) => { copied.textContent = words; }); },
-  }, 'Copy');
+  const copy = element(
+    'button',
+    {
+      type: 'button',
+      'data-testid': 'copy-commands',
+      onclick: () => {
+        void copyText(commands, block).then((words) => {
+          copied.textContent = words;
+        });
+      },
+    },
+    'Copy',
+  );
   const block = element('pre', { 'data-testid': 'commands', tabindex: 0 }, commands);
   return [
     ...(commands === '' ? [] : [block, element('p', { class: 'row' }, copy, copied)]),
-    element('p', { class: 'hint' }, `Made with smash ${report.made_with.smash} and Ceres Solver ${report.made_with.ceres}.`),
-    element('p', { class: 'row' },
-      element('button', {
-        type: 'button', 'data-testid': 'save-json',
-        onclick: () => save(`${report.scene.name}.report.json`, 'application/json', JSON.stringify(report, null, 1)),
-      }, 'All numbers, JSON'),
-      element('button', {
-        type: 'button', 'data-testid': 'save-csv',
-        onclick: () => save(`${report.scene.name}.residuals.csv`, 'text/csv', residualsCsv(report)),
-      }, 'Residuals, CSV')),
+    element(
+      'p',
+      { class: 'hint' },
+      `Made with smash ${report.made_with.smash} and Ceres Solver ${report.made_with.ceres}.`,
+    ),
+    element(
+      'p',
+      { class: 'row' },
+      element(
+        'button',
+        {
+          type: 'button',
+          'data-testid': 'save-json',
+          onclick: () =>
+            save(`${report.scene.name}.report.json`, 'application/json', JSON.stringify(report, null, 1)),
+        },
+        'All numbers, JSON',
+      ),
+      element(
+        'button',
+        {
+          type: 'button',
+          'data-testid': 'save-csv',
+          onclick: () => save(`${report.scene.name}.residuals.csv`, 'text/csv', residualsCsv(report)),
+        },
+        'Residuals, CSV',
+      ),
+    ),
   ];
 }
 

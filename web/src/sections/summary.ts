@@ -8,7 +8,10 @@ import { flagInWords, label } from '../words';
 
 export function summary(report: Report, model: Model | null): HTMLElement[] {
   if (model === null) return [element('p', {}, 'This report holds no result.')];
-  return [element('div', { class: 'glance' }, verdict(report, model), keyNumbers(model)), ...flags(report, model)];
+  return [
+    element('div', { class: 'glance' }, verdict(report, model), keyNumbers(model)),
+    ...flags(report, model),
+  ];
 }
 
 /** In one sentence whether the model fits, in another what is missing. */
@@ -16,13 +19,19 @@ function verdict(report: Report, model: Model): HTMLElement {
   const { diagnosis, improvement } = report;
   // The diagnosis fits for itself: it says nothing of what the paper's method made of the poses.
   const isRefined = model.result.preset === 'refined';
-  const missing = !isRefined ? null :
-    diagnosis && hasEffects(model, diagnosis.model.map(label)) ? diagnosis.explanation : ofLadder(improvement, model);
+  const missing = !isRefined
+    ? null
+    : diagnosis && hasEffects(model, diagnosis.model.map(label))
+      ? diagnosis.explanation
+      : ofLadder(improvement, model);
   const fits = fit(report, model);
-  return element('div', { class: `verdict ${fits.isGood === false ? 'bad' : 'good'}`, 'data-testid': 'verdict' },
+  return element(
+    'div',
+    { class: `verdict ${fits.isGood === false ? 'bad' : 'good'}`, 'data-testid': 'verdict' },
     element('p', { class: 'lead' }, fits.words),
     missing && element('p', {}, missing),
-    ...findings(model));
+    ...findings(model),
+  );
 }
 
 /** What the ladder says of its last model. */
@@ -63,7 +72,8 @@ function fit(report: Report, model: Model): FitInWords {
 function findings(model: Model): Child[] {
   const all = model.residuals.findings ?? [];
   if (all.length === 0) return [];
-  const list = (from: string[]): HTMLElement => element('ul', { class: 'findings' }, ...from.map((f) => element('li', {}, f)));
+  const list = (from: string[]): HTMLElement =>
+    element('ul', { class: 'findings' }, ...from.map((f) => element('li', {}, f)));
   const rest = all.slice(3);
   return [
     element('p', { class: 'label' }, 'Where it fails, the clearest first'),
@@ -79,15 +89,20 @@ function keyNumbers(model: Model): HTMLElement {
   numbers.push(['restitution', estimate(result.restitution, '')]);
   numbers.push(['collision time', estimate(result.collision_time, 's')]);
   const turn = result.fit.orientation_rmse;
-  numbers.push(['error of the fit',
-    length(result.fit.position_rmse) + (typeof turn === 'number' ? `, ${angle(turn)}` : '')]);
+  numbers.push([
+    'error of the fit',
+    length(result.fit.position_rmse) + (typeof turn === 'number' ? `, ${angle(turn)}` : ''),
+  ]);
   if (typeof result.fit.reduced_chi2 === 'number') {
     numbers.push(['χ² per degree of freedom', significant(result.fit.reduced_chi2)]);
   }
   const effects = result.effects.map(label).join(', ');
   numbers.push(['model', effects === '' ? 'base' : `base + ${effects}`]);
-  return element('dl', { class: 'key-numbers', 'data-testid': 'key-numbers' },
-    ...numbers.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))));
+  return element(
+    'dl',
+    { class: 'key-numbers', 'data-testid': 'key-numbers' },
+    ...numbers.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))),
+  );
 }
 
 function estimate(value: Estimate, unit: string): string {
@@ -102,8 +117,19 @@ function flags(report: Report, model: Model): HTMLElement[] {
   if (left.length === 0) return [];
   const items = left.map((flag) => {
     const { meaning, advice } = flagInWords(flag);
-    return element('li', {}, meaning, advice === '' ? '' : element('span', { class: 'hint' }, ` Mend: ${advice}.`));
+    return element(
+      'li',
+      {},
+      meaning,
+      advice === '' ? '' : element('span', { class: 'hint' }, ` Mend: ${advice}.`),
+    );
   });
-  return [element('div', { class: 'flags', 'data-testid': 'flags' },
-    element('p', { class: 'label' }, 'Doubts'), element('ul', {}, ...items))];
+  return [
+    element(
+      'div',
+      { class: 'flags', 'data-testid': 'flags' },
+      element('p', { class: 'label' }, 'Doubts'),
+      element('ul', {}, ...items),
+    ),
+  ];
 }

@@ -8,7 +8,10 @@ export class Arrow extends Group {
   private readonly shaft: Mesh;
   private readonly head: Mesh;
 
-  constructor(colour: string, private readonly thickness: number) {
+  constructor(
+    colour: string,
+    private readonly thickness: number,
+  ) {
     super();
     const material = new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true });
     this.shaft = new Mesh(new CylinderGeometry(thickness / 2, thickness / 2, 1, 12), material);

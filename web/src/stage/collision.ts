@@ -31,12 +31,19 @@ export class Collision extends Group {
   private differences: Differences[] = [];
 
   constructor(
-    private readonly scene: Scene, private readonly model: Model | null, all: Sphere, private readonly colours: Palette,
+    private readonly scene: Scene,
+    private readonly model: Model | null,
+    all: Sphere,
+    private readonly colours: Palette,
   ) {
     super();
     this.floor = new Floor(scene, all, colours);
     this.drawn = {
-      poses: new Group(), model: new Group(), paths: new Group(), impulse: new Group(), spins: new Group(),
+      poses: new Group(),
+      model: new Group(),
+      paths: new Group(),
+      impulse: new Group(),
+      spins: new Group(),
     };
     this.add(this.floor, ...Object.values(this.drawn));
     this.poses = scene.bodies.map((body) => new Poses(body, model ? singleOutliers(model) : [], colours));

@@ -11,9 +11,7 @@ import type { Palette } from './palette';
 import { line } from './trajectory';
 
 export class Differences extends Group {
-  constructor(
-    body: Body, motion: BodyMotion, collisionTime: number, times: number, colours: Palette,
-  ) {
+  constructor(body: Body, motion: BodyMotion, collisionTime: number, times: number, colours: Palette) {
     super();
     const sticks: number[] = [];
     const ends: Record<Segment, Vector[]> = { before: [], after: [] };

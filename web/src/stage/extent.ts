@@ -17,10 +17,9 @@ export function extent(scene: Scene, model: Model | null): Sphere {
     const margin = reach(body);
     for (const position of [...body.observations.map((pose) => pose.position), ...tracks]) {
       if (!position.every(Number.isFinite)) continue;
-      box.union(new Box3().setFromCenterAndSize(
-        new Vector3(...position),
-        new Vector3().setScalar(2 * margin),
-      ));
+      box.union(
+        new Box3().setFromCenterAndSize(new Vector3(...position), new Vector3().setScalar(2 * margin)),
+      );
     }
   }
   if (box.isEmpty()) return new Sphere(new Vector3(), 1);

@@ -1,8 +1,18 @@
 // A grid: on the static plane, or, without one, below everything to tell depths by.
 
 import {
-  BufferGeometry, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, PlaneGeometry, Quaternion, Sphere, Vector3,
+  BufferGeometry,
+  DoubleSide,
+  Float32BufferAttribute,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  PlaneGeometry,
+  Quaternion,
+  Sphere,
+  Vector3,
 } from 'three';
 import type { Scene } from '../report';
 import type { Palette } from './palette';
@@ -35,13 +45,20 @@ export class Floor extends Group {
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
-    return new LineSegments(geometry, new LineBasicMaterial({ color: colours.faint, transparent: true, opacity: 0.35 }));
+    return new LineSegments(
+      geometry,
+      new LineBasicMaterial({ color: colours.faint, transparent: true, opacity: 0.35 }),
+    );
   }
 
   private sheet(colours: Palette): Mesh {
     const side = SQUARES * this.square;
     const material = new MeshBasicMaterial({
-      color: colours.faint, transparent: true, opacity: 0.1, side: DoubleSide, depthWrite: false,
+      color: colours.faint,
+      transparent: true,
+      opacity: 0.1,
+      side: DoubleSide,
+      depthWrite: false,
     });
     return new Mesh(new PlaneGeometry(side, side), material);
   }

@@ -28,20 +28,37 @@ export class StageSection {
   private readonly grid = element('p', { class: 'hint', 'data-testid': 'grid-note' });
   private readonly still = element('canvas', { class: 'stage-still', 'aria-hidden': 'true' });
   private readonly exaggeration: HTMLSelectElement;
-  private readonly difference = element('p', { class: 'hint', hidden: true, 'data-testid': 'difference-note' });
+  private readonly difference = element('p', {
+    class: 'hint',
+    hidden: true,
+    'data-testid': 'difference-note',
+  });
 
   constructor(scene: Scene, clock: Clock) {
     const holder = element('div', { class: 'stage', 'data-testid': 'stage' });
     this.stage = Stage.on(holder, scene.up);
     if (this.stage === null) {
       holder.classList.add('stage-missing');
-      holder.append(element('p', { role: 'note', 'data-testid': 'no-webgl' },
-        'No 3D here: this browser has no WebGL 2, or it is switched off. Everything else works.'));
+      holder.append(
+        element(
+          'p',
+          { role: 'note', 'data-testid': 'no-webgl' },
+          'No 3D here: this browser has no WebGL 2, or it is switched off. Everything else works.',
+        ),
+      );
     }
     this.timeline = new Timeline(clock);
     this.exaggeration = this.exaggerationChoice();
-    this.root = element('div', { class: 'stage-section' },
-      holder, this.still, this.timeline.root, this.stage && this.tools(), this.difference, this.grid);
+    this.root = element(
+      'div',
+      { class: 'stage-section' },
+      holder,
+      this.still,
+      this.timeline.root,
+      this.stage && this.tools(),
+      this.difference,
+      this.grid,
+    );
     clock.time.watch((time) => this.stage?.showAt(time));
     window.addEventListener('beforeprint', () => this.keepStill());
   }
@@ -67,8 +84,7 @@ export class StageSection {
   private exaggerate(times: number): void {
     this.stage?.exaggerate(times);
     this.difference.hidden = times === 0;
-    this.difference.textContent =
-      `Thick strokes lead from each measured centre to where the model has it, ${times === 1 ? 'true to scale' : `${times} × as long`}; a thin line joins their ends.`;
+    this.difference.textContent = `Thick strokes lead from each measured centre to where the model has it, ${times === 1 ? 'true to scale' : `${times} × as long`}; a thin line joins their ends.`;
   }
 
   /** What is printed: the canvas of 3D is empty by then. */
@@ -87,35 +103,65 @@ export class StageSection {
   private tools(): HTMLElement {
     const stage = this.stage as Stage;
     const views = VIEWS.map((view, index) =>
-      element('button', {
-        type: 'button', 'data-testid': `view-${view}`, title: `${VIEW_WORDS[view]} (key ${index + 1})`,
-        onclick: () => stage.look(view),
-      }, VIEW_WORDS[view]));
+      element(
+        'button',
+        {
+          type: 'button',
+          'data-testid': `view-${view}`,
+          title: `${VIEW_WORDS[view]} (key ${index + 1})`,
+          onclick: () => stage.look(view),
+        },
+        VIEW_WORDS[view],
+      ),
+    );
     const layers = LAYERS.map((layer) => {
       const box = element('input', {
-        type: 'checkbox', checked: true, 'data-testid': `layer-${layer}`,
+        type: 'checkbox',
+        checked: true,
+        'data-testid': `layer-${layer}`,
         onchange: () => stage.showLayer(layer, box.checked),
       });
       return element('label', {}, box, LAYER_WORDS[layer]);
     });
-    const save = element('button', {
-      type: 'button', 'data-testid': 'save-stage',
-      onclick: () => { stage.drawNow(); saveCanvas(stage.canvas, 'collision.png'); },
-    }, 'Save PNG');
+    const save = element(
+      'button',
+      {
+        type: 'button',
+        'data-testid': 'save-stage',
+        onclick: () => {
+          stage.drawNow();
+          saveCanvas(stage.canvas, 'collision.png');
+        },
+      },
+      'Save PNG',
+    );
     const id = freshId('exaggeration');
     this.exaggeration.id = id;
-    return element('div', { class: 'stage-tools' },
+    return element(
+      'div',
+      { class: 'stage-tools' },
       element('div', { class: 'row', role: 'group', 'aria-label': 'Views' }, ...views, save),
-      element('div', { class: 'row', role: 'group', 'aria-label': 'What is drawn' },
-        ...layers, element('label', { for: id }, 'difference ', this.exaggeration)));
+      element(
+        'div',
+        { class: 'row', role: 'group', 'aria-label': 'What is drawn' },
+        ...layers,
+        element('label', { for: id }, 'difference ', this.exaggeration),
+      ),
+    );
   }
 
   private exaggerationChoice(): HTMLSelectElement {
-    const choice = element('select', {
-      'data-testid': 'exaggeration',
-      title: 'From each measured centre to where the model has it, so many times as long',
-      onchange: () => this.exaggerate(Number(choice.value)),
-    }, ...EXAGGERATIONS.map((times) => element('option', { value: times }, times === 0 ? 'off' : `× ${times}`)));
+    const choice = element(
+      'select',
+      {
+        'data-testid': 'exaggeration',
+        title: 'From each measured centre to where the model has it, so many times as long',
+        onchange: () => this.exaggerate(Number(choice.value)),
+      },
+      ...EXAGGERATIONS.map((times) =>
+        element('option', { value: times }, times === 0 ? 'off' : `× ${times}`),
+      ),
+    );
     return choice;
   }
 }

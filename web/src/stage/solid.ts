@@ -1,8 +1,16 @@
 // A body of the model: lit, moved along the reconstructed motion, with its spin as an arrow.
 
 import {
-  BoxGeometry, Group, LineBasicMaterial, LineSegments, BufferGeometry, Float32BufferAttribute,
-  Mesh, MeshStandardMaterial, SphereGeometry, Vector3,
+  BoxGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  BufferGeometry,
+  Float32BufferAttribute,
+  Mesh,
+  MeshStandardMaterial,
+  SphereGeometry,
+  Vector3,
 } from 'three';
 import { stateAt, threeTurn } from '../motion';
 import type { Body, BodyMotion } from '../report';
@@ -26,9 +34,13 @@ export class Solid extends Group {
     const geometry =
       shape.type === 'sphere' ? new SphereGeometry(shape.radius, 40, 24) : new BoxGeometry(...shape.size);
     const material = new MeshStandardMaterial({
-      color: colour, roughness: 0.65, metalness: 0,
+      color: colour,
+      roughness: 0.65,
+      metalness: 0,
       // Outlines that lie on a face must not sink into it.
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
     });
     this.flesh.add(new Mesh(geometry, material));
     if (motion.before.orientations) this.flesh.add(seams(body));
@@ -57,5 +69,8 @@ export class Solid extends Group {
 function seams(body: Body): LineSegments {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new Float32BufferAttribute(outlinePoints(body.shape), 3));
-  return new LineSegments(geometry, new LineBasicMaterial({ color: 0x000000, transparent: true, opacity: 0.35 }));
+  return new LineSegments(
+    geometry,
+    new LineBasicMaterial({ color: 0x000000, transparent: true, opacity: 0.35 }),
+  );
 }

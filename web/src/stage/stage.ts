@@ -1,8 +1,17 @@
 // The 3D picture: one canvas, drawn when something changed.
 
 import {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, HemisphereLight, Material, PerspectiveCamera, Scene as World,
-  Sphere, Vector3, WebGLRenderer,
+  AmbientLight,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  Material,
+  PerspectiveCamera,
+  Scene as World,
+  Sphere,
+  Vector3,
+  WebGLRenderer,
 } from 'three';
 import type { Object3D } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -36,7 +45,10 @@ export class Stage {
   /** Null where the browser draws no 3D. */
   static on(holder: HTMLElement, up: [number, number, number]): Stage | null {
     const canvas = element('canvas', {
-      'aria-label': 'The collision in 3D', role: 'img', 'data-testid': 'stage-canvas', tabindex: 0,
+      'aria-label': 'The collision in 3D',
+      role: 'img',
+      'data-testid': 'stage-canvas',
+      tabindex: 0,
     });
     const context = canvas.getContext('webgl2', { antialias: true, alpha: false });
     return context === null ? null : new Stage(holder, canvas, context, up);
@@ -125,9 +137,7 @@ export class Stage {
     const ball = this.framed(view);
     const away = distance(this.camera, ball);
     this.controls.target.copy(ball.center);
-    this.camera.position
-      .copy(ball.center)
-      .addScaledVector(direction(view, this.scene, this.model), away);
+    this.camera.position.copy(ball.center).addScaledVector(direction(view, this.scene, this.model), away);
     this.controls.update();
     this.draw();
   }

@@ -8,30 +8,47 @@ import { svg } from '../svg';
 
 const STEPS = 1000;
 const SPEEDS: [speed: number, words: string][] = [
-  [1, 'real time'], [0.5, '2 × slower'], [0.25, '4 × slower'], [0.1, '10 × slower'],
-  [0.03, '33 × slower'], [0.01, '100 × slower'],
+  [1, 'real time'],
+  [0.5, '2 × slower'],
+  [0.25, '4 × slower'],
+  [0.1, '10 × slower'],
+  [0.03, '33 × slower'],
+  [0.01, '100 × slower'],
 ];
 
 export class Timeline {
   readonly root: HTMLElement;
   private readonly slider: HTMLInputElement;
   private readonly marks = svg('svg', {
-    class: 'timeline-marks', viewBox: `0 0 ${STEPS} 24`, preserveAspectRatio: 'none', 'aria-hidden': 'true',
+    class: 'timeline-marks',
+    viewBox: `0 0 ${STEPS} 24`,
+    preserveAspectRatio: 'none',
+    'aria-hidden': 'true',
   });
   private readonly reading = element('output', { class: 'reading', 'data-testid': 'time' });
   private scene: Scene | null = null;
 
   constructor(private readonly clock: Clock) {
     this.slider = element('input', {
-      type: 'range', min: 0, max: STEPS, step: 1, class: 'time-slider', 'aria-label': 'Time',
+      type: 'range',
+      min: 0,
+      max: STEPS,
+      step: 1,
+      class: 'time-slider',
+      'aria-label': 'Time',
       'data-testid': 'time-slider',
       oninput: () => {
         clock.pause();
         clock.go(clock.start + (this.slider.valueAsNumber / STEPS) * (clock.end - clock.start));
       },
     });
-    this.root = element('div', { class: 'timeline' },
-      this.buttons(), element('div', { class: 'timeline-track' }, this.marks, this.slider), this.reading);
+    this.root = element(
+      'div',
+      { class: 'timeline' },
+      this.buttons(),
+      element('div', { class: 'timeline-track' }, this.marks, this.slider),
+      this.reading,
+    );
     clock.time.watch(() => this.follow());
     clock.span.watch(() => this.follow());
   }
@@ -49,30 +66,48 @@ export class Timeline {
         const side = clock.impact === null || pose.time <= clock.impact ? 'before' : 'after';
         const [x, y] = [at(pose.time), row === 0 ? 1 : 13];
         return svg('line', { x1: x, x2: x, y1: y, y2: y + 10, class: `tick ${side}` });
-      }));
-    const impact = clock.impact === null ? [] : [
-      svg('line', { x1: at(clock.impact), x2: at(clock.impact), y1: 0, y2: 24, class: 'tick impact' }),
-    ];
+      }),
+    );
+    const impact =
+      clock.impact === null
+        ? []
+        : [svg('line', { x1: at(clock.impact), x2: at(clock.impact), y1: 0, y2: 24, class: 'tick impact' })];
     this.marks.replaceChildren(...ticks, ...impact);
   }
 
   private buttons(): HTMLElement {
     const { clock } = this;
     const button = (test: string, words: string, title: string, act: () => void): HTMLButtonElement =>
-      element('button', { type: 'button', 'data-testid': test, title, 'aria-label': title, onclick: act }, words);
+      element(
+        'button',
+        { type: 'button', 'data-testid': test, title, 'aria-label': title, onclick: act },
+        words,
+      );
     const play = button('play', '▶ Play', 'Play (space)', () => clock.toggle());
     clock.playing.watch((playing) => {
       play.textContent = playing ? '❚❚ Pause' : '▶ Play';
       play.setAttribute('aria-pressed', String(playing));
     });
-    const speed = element('select', {
-      'aria-label': 'Speed', 'data-testid': 'speed', onchange: () => clock.speed.set(Number(speed.value)),
-    }, ...SPEEDS.map(([value, words]) => element('option', { value, selected: value === clock.speed.value }, words)));
-    return element('div', { class: 'row' },
-      play, speed,
+    const speed = element(
+      'select',
+      {
+        'aria-label': 'Speed',
+        'data-testid': 'speed',
+        onchange: () => clock.speed.set(Number(speed.value)),
+      },
+      ...SPEEDS.map(([value, words]) =>
+        element('option', { value, selected: value === clock.speed.value }, words),
+      ),
+    );
+    return element(
+      'div',
+      { class: 'row' },
+      play,
+      speed,
       button('step-back', '◂ pose', 'Previous pose (,)', () => clock.step(-1)),
       button('impact', '✱ Impact', 'To the impact (i)', () => clock.goToImpact()),
-      button('step-on', 'pose ▸', 'Next pose (.)', () => clock.step(1)));
+      button('step-on', 'pose ▸', 'Next pose (.)', () => clock.step(1)),
+    );
   }
 
   private follow(): void {

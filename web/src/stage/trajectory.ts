@@ -12,7 +12,11 @@ export class Trajectory extends Group {
     super();
     const before = new LineMaterial({ color: colours.before, linewidth: 2.5 });
     const after = new LineMaterial({
-      color: colours.after, linewidth: 2.5, dashed: true, dashSize: 0.02 * size, gapSize: 0.012 * size,
+      color: colours.after,
+      linewidth: 2.5,
+      dashed: true,
+      dashSize: 0.02 * size,
+      gapSize: 0.012 * size,
     });
     this.add(line(motion.before.positions, before), line(motion.after.positions, after));
   }

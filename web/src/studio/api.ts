@@ -5,7 +5,12 @@ import type { Action, CheckedLaw, StudioState } from '../studio_state';
 
 /** What the server refuses, in its own words. */
 export class Refusal extends Error {
-  constructor(readonly place: string | null, readonly problem: string, readonly mend: string | null, readonly status: number) {
+  constructor(
+    readonly place: string | null,
+    readonly problem: string,
+    readonly mend: string | null,
+    readonly status: number,
+  ) {
     super(problem);
   }
 }
@@ -24,7 +29,9 @@ export const api = {
 
 function post<T>(address: string, body: string): Promise<T> {
   return json<T>(address, {
-    method: 'POST', body, headers: { 'Content-Type': 'application/json', 'X-Smash': '1' },
+    method: 'POST',
+    body,
+    headers: { 'Content-Type': 'application/json', 'X-Smash': '1' },
   });
 }
 
@@ -55,6 +62,11 @@ async function refusal(response: Response): Promise<Refusal> {
     const { error } = (await response.json()) as { error: Omit<Refusal, 'status'> };
     return new Refusal(error.place ?? null, error.problem, error.mend ?? null, response.status);
   } catch {
-    return new Refusal(null, `the server answers ${response.status} ${response.statusText}`, null, response.status);
+    return new Refusal(
+      null,
+      `the server answers ${response.status} ${response.statusText}`,
+      null,
+      response.status,
+    );
   }
 }

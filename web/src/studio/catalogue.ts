@@ -13,13 +13,25 @@ export class Catalogue {
   private readonly line = new ErrorLine();
 
   /** `edit` puts a law's text into the editor. */
-  constructor(private readonly studio: Studio, private readonly edit: (text: string) => void) {
+  constructor(
+    private readonly studio: Studio,
+    private readonly edit: (text: string) => void,
+  ) {
     this.search = element('input', {
-      type: 'search', placeholder: 'Search effects: drag, spin, camera …', 'aria-label': 'Search effects',
-      'data-testid': 'search-effects', oninput: () => this.show(studio.state.value),
+      type: 'search',
+      placeholder: 'Search effects: drag, spin, camera …',
+      'aria-label': 'Search effects',
+      'data-testid': 'search-effects',
+      oninput: () => this.show(studio.state.value),
     });
-    this.root = element('div', { class: 'catalogue-section' },
-      element('h2', {}, 'Effects'), this.search, this.line.root, this.list);
+    this.root = element(
+      'div',
+      { class: 'catalogue-section' },
+      element('h2', {}, 'Effects'),
+      this.search,
+      this.line.root,
+      this.list,
+    );
     studio.state.watch((state) => this.show(state));
   }
 
@@ -36,22 +48,40 @@ export class Catalogue {
     const known = state.catalogue
       .filter((effect) => fits([effect.name, effect.title, effect.looks_like, effect.tell_apart]))
       .map((effect) => this.effect(effect, effects));
-    const none = own.length + known.length === 0 && element('li', { class: 'hint' }, 'No effect says that. Write a law of your own below.');
+    const none =
+      own.length + known.length === 0 &&
+      element('li', { class: 'hint' }, 'No effect says that. Write a law of your own below.');
     refill(this.list, ...own, ...known, none);
   }
 
   private effect(effect: CatalogueEffect, present: string[]): HTMLElement {
-    return element('li', {},
-      element('div', { class: 'row' }, element('strong', {}, effect.title), ...this.buttons(effect.labels, present)),
+    return element(
+      'li',
+      {},
+      element(
+        'div',
+        { class: 'row' },
+        element('strong', {}, effect.title),
+        ...this.buttons(effect.labels, present),
+      ),
       element('div', { class: 'hint' }, element('code', {}, effect.name), ` ${effect.looks_like}`),
-      effect.tell_apart !== '' && element('div', { class: 'hint' }, `To tell it apart: ${effect.tell_apart}`));
+      effect.tell_apart !== '' && element('div', { class: 'hint' }, `To tell it apart: ${effect.tell_apart}`),
+    );
   }
 
   private law(law: OwnLaw, present: string[]): HTMLElement {
-    return element('li', {},
-      element('div', { class: 'row' }, element('strong', {}, law.name), element('span', { class: 'hint' }, 'your own'),
+    return element(
+      'li',
+      {},
+      element(
+        'div',
+        { class: 'row' },
+        element('strong', {}, law.name),
+        element('span', { class: 'hint' }, 'your own'),
         ...this.buttons(law.labels, present),
-        element('button', { type: 'button', onclick: () => this.edit(law.text) }, 'Edit')));
+        element('button', { type: 'button', onclick: () => this.edit(law.text) }, 'Edit'),
+      ),
+    );
   }
 
   private buttons(labels: string[], present: string[]): Child[] {
@@ -61,10 +91,17 @@ export class Catalogue {
   /** Adds what isn't in the model, takes out what is. */
   private toggle(label: string, isIn: boolean): HTMLElement {
     const where = label.includes('@') ? label.slice(label.indexOf('@') + 1) : 'all';
-    return element('button', {
-      type: 'button', id: `effect-${label}`, 'data-testid': `${isIn ? 'drop' : 'add'}-${label}`, 'aria-pressed': String(isIn),
-      'aria-label': isIn ? `Take ${label} out` : `Add ${label}`,
-      onclick: () => void this.studio.act({ do: isIn ? 'remove' : 'add', effect: label }, this.line),
-    }, isIn ? `− ${where}` : `+ ${where}`);
+    return element(
+      'button',
+      {
+        type: 'button',
+        id: `effect-${label}`,
+        'data-testid': `${isIn ? 'drop' : 'add'}-${label}`,
+        'aria-pressed': String(isIn),
+        'aria-label': isIn ? `Take ${label} out` : `Add ${label}`,
+        onclick: () => void this.studio.act({ do: isIn ? 'remove' : 'add', effect: label }, this.line),
+      },
+      isIn ? `− ${where}` : `+ ${where}`,
+    );
   }
 }

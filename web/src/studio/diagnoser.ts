@@ -12,7 +12,10 @@ export class Diagnoser {
   private hasFailed = false;
 
   /** `tell` gets the diagnosis of what is shown; null while it is sought; or the error. */
-  constructor(private readonly studio: Studio, private readonly tell: (answer: Diagnosis | Error | null) => void) {}
+  constructor(
+    private readonly studio: Studio,
+    private readonly tell: (answer: Diagnosis | Error | null) => void,
+  ) {}
 
   ask(): void {
     this.request?.abort();

@@ -15,7 +15,11 @@ const PAUSE_MS = 180;
 export class LawEditor {
   readonly root: HTMLElement;
   private readonly text = new LawText(() => this.typed());
-  private readonly verdict = element('div', { class: 'law-verdict', role: 'status', 'data-testid': 'law-verdict' });
+  private readonly verdict = element('div', {
+    class: 'law-verdict',
+    role: 'status',
+    'data-testid': 'law-verdict',
+  });
   private readonly place = element('select', { 'aria-label': 'Acts on', 'data-testid': 'law-place' });
   private readonly button: HTMLButtonElement;
   private readonly atOnce = element('input', { type: 'checkbox', 'data-testid': 'law-at-once' });
@@ -26,23 +30,54 @@ export class LawEditor {
 
   constructor(private readonly studio: Studio) {
     this.store = new DraftStore(`smash-law:${studio.state.value.report.scene.name}`);
-    this.button = element('button', {
-      type: 'button', disabled: true, 'data-testid': 'law-put-in', onclick: () => void this.putIn(),
-    }, 'Put it in and fit');
-    this.root = element('section', { 'aria-label': 'A law of your own', class: 'law' },
+    this.button = element(
+      'button',
+      {
+        type: 'button',
+        disabled: true,
+        'data-testid': 'law-put-in',
+        onclick: () => void this.putIn(),
+      },
+      'Put it in and fit',
+    );
+    this.root = element(
+      'section',
+      { 'aria-label': 'A law of your own', class: 'law' },
       element('h2', {}, 'A law of your own'),
-      element('p', { class: 'hint' },
-        'An effect that the catalogue lacks: a force, a torque or a measurement law, in a few lines. Units are checked while you type.'),
-      element('div', { class: 'law-columns' },
-        element('div', {}, this.text.root,
-          element('div', { class: 'row' }, this.button, this.place,
+      element(
+        'p',
+        { class: 'hint' },
+        'An effect that the catalogue lacks: a force, a torque or a measurement law, in a few lines. Units are checked while you type.',
+      ),
+      element(
+        'div',
+        { class: 'law-columns' },
+        element(
+          'div',
+          {},
+          this.text.root,
+          element(
+            'div',
+            { class: 'row' },
+            this.button,
+            this.place,
             element('label', {}, this.atOnce, 'as soon as it is good'),
-            element('button', { type: 'button', 'data-testid': 'law-example', onclick: () => this.edit(LAW_EXAMPLE) }, 'Start with an example')),
-          this.line.root),
-        element('div', {}, this.verdict, lawHelp())));
+            element(
+              'button',
+              { type: 'button', 'data-testid': 'law-example', onclick: () => this.edit(LAW_EXAMPLE) },
+              'Start with an example',
+            ),
+          ),
+          this.line.root,
+        ),
+        element('div', {}, this.verdict, lawHelp()),
+      ),
+    );
     this.restore(studio.state.value);
     studio.state.watch((state) => this.refresh(state));
-    studio.connection.watch((connection) => { if (connection === 'there') void this.check(); });
+    studio.connection.watch((connection) => {
+      if (connection === 'there') void this.check();
+    });
   }
 
   /** Puts another text in its place. */
@@ -98,12 +133,17 @@ export class LawEditor {
     this.button.disabled = law.effect === null;
     const chosen = this.place.value;
     const labels = law.effect?.labels ?? [];
-    refill(this.place, ...labels.map((label) => element('option', { value: label, selected: label === chosen }, label)));
+    refill(
+      this.place,
+      ...labels.map((label) => element('option', { value: label, selected: label === chosen }, label)),
+    );
     this.place.hidden = labels.length === 0;
-    refill(this.verdict,
+    refill(
+      this.verdict,
       isEmpty && element('p', { class: 'hint' }, 'Nothing typed yet.'),
       law.effect && element('p', { class: 'good-law' }, `Good: ${law.effect.title} (${law.effect.name}).`),
-      ...mistakes(text, found));
+      ...mistakes(text, found),
+    );
   }
 
   private async putIn(): Promise<void> {

@@ -11,10 +11,21 @@ export class LawText {
 
   constructor(typed: () => void) {
     this.field = element('textarea', {
-      rows: 16, spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', wrap: 'off',
-      'aria-label': 'The law, TOML', 'data-testid': 'law-text',
-      oninput: () => { this.mark([]); typed(); },
-      onscroll: () => { this.copy.scrollTop = this.field.scrollTop; this.copy.scrollLeft = this.field.scrollLeft; },
+      rows: 16,
+      spellcheck: 'false',
+      autocomplete: 'off',
+      autocapitalize: 'off',
+      wrap: 'off',
+      'aria-label': 'The law, TOML',
+      'data-testid': 'law-text',
+      oninput: () => {
+        this.mark([]);
+        typed();
+      },
+      onscroll: () => {
+        this.copy.scrollTop = this.field.scrollTop;
+        this.copy.scrollLeft = this.field.scrollLeft;
+      },
     });
     this.root = element('div', { class: 'law-text' }, this.copy, this.field);
   }

@@ -9,9 +9,12 @@ export function mistakes(text: string, all: Mistake[]): HTMLElement[] {
   return all.map((mistake) => {
     const line = lines[mistake.line - 1] ?? '';
     const caret = ' '.repeat(Math.max(0, mistake.column - 1)) + '^'.repeat(Math.max(1, mistake.length));
-    return element('div', { class: 'mistake', 'data-testid': 'mistake' },
+    return element(
+      'div',
+      { class: 'mistake', 'data-testid': 'mistake' },
       element('p', { class: 'label' }, `Line ${mistake.line}`),
       element('pre', {}, `${line}\n${caret}`),
-      element('p', {}, sentence(mistake.problem + (mistake.mend === null ? '' : `; ${mistake.mend}`))));
+      element('p', {}, sentence(mistake.problem + (mistake.mend === null ? '' : `; ${mistake.mend}`))),
+    );
   });
 }

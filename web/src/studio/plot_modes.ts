@@ -17,23 +17,40 @@ export class PlotModes implements PoseActs {
   readonly root: HTMLElement;
   mode: Mode = 'look';
 
-  constructor(private readonly studio: Studio, private readonly line: ErrorLine) {
+  constructor(
+    private readonly studio: Studio,
+    private readonly line: ErrorLine,
+  ) {
     const how = element('p', { class: 'hint' }, WORDS[this.mode][1]);
     const choices = MODES.map((mode) =>
-      element('label', {},
+      element(
+        'label',
+        {},
         element('input', {
-          type: 'radio', name: 'plot-mode', checked: mode === this.mode, 'data-testid': `mode-${mode}`,
+          type: 'radio',
+          name: 'plot-mode',
+          checked: mode === this.mode,
+          'data-testid': `mode-${mode}`,
           onchange: () => {
             this.mode = mode;
             how.textContent = WORDS[mode][1];
           },
-        }), WORDS[mode][0]));
-    this.root = element('div', { class: 'modes' },
-      element('fieldset', {}, element('legend', {}, 'Mouse in plots'), ...choices), how);
+        }),
+        WORDS[mode][0],
+      ),
+    );
+    this.root = element(
+      'div',
+      { class: 'modes' },
+      element('fieldset', {}, element('legend', {}, 'Mouse in plots'), ...choices),
+      how,
+    );
   }
 
   isMarked(body: string, observation: number): boolean {
-    return this.studio.state.value.edits.marked.some((pose) => pose.body === body && pose.observation === observation);
+    return this.studio.state.value.edits.marked.some(
+      (pose) => pose.body === body && pose.observation === observation,
+    );
   }
 
   mark(body: string, observation: number, wrong: boolean): void {
@@ -46,11 +63,12 @@ export class PlotModes implements PoseActs {
 
   noise(channel: 'position' | 'orientation', sigma: number): void {
     const { edits, report } = this.studio.state.value;
-    const known = edits.noise ?? report.scene.noise ?? {
-      position: report.noise?.position ?? sigma,
-      // Of a scene without orientations any will do: nothing is divided by it.
-      orientation: report.noise?.orientation ?? 0.01,
-    };
+    const known = edits.noise ??
+      report.scene.noise ?? {
+        position: report.noise?.position ?? sigma,
+        // Of a scene without orientations any will do: nothing is divided by it.
+        orientation: report.noise?.orientation ?? 0.01,
+      };
     void this.studio.act({ do: 'noise', ...known, [channel]: sigma }, this.line);
   }
 }

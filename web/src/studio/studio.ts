@@ -69,7 +69,8 @@ export class Studio {
   /** What any request's failure means for the connection. */
   heed(error: unknown): void {
     if (error instanceof ConnectionLost) this.connection.set('lost');
-    else if (error instanceof Refusal && (error.status === 403 || error.status === 404)) this.connection.set('refused');
+    else if (error instanceof Refusal && (error.status === 403 || error.status === 404))
+      this.connection.set('refused');
     else return;
     this.wait = 500;
     this.pollLater();

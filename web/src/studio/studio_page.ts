@@ -25,14 +25,26 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
   const catalogue = new Catalogue(studio, (text) => law.edit(text));
   const page = new ReportPage(root, {
     top: [banner(studio), new Bar(studio).root],
-    model: element('section', { class: 'model', 'aria-label': 'The model' }, catalogue.root, new Variants(studio).root),
+    model: element(
+      'section',
+      { class: 'model', 'aria-label': 'The model' },
+      catalogue.root,
+      new Variants(studio).root,
+    ),
     plotTools: element('div', {}, modes.root, plotLine.root),
     sections: [law.root, new Poses(studio, poseLine).root],
     acts: modes,
-    adder: (effect) => element('button', {
-      type: 'button', 'data-testid': `suggested-${effect}`, 'aria-label': `Add ${effect}`,
-      onclick: () => void studio.act({ do: 'add', effect }, missingLine),
-    }, '+ add'),
+    adder: (effect) =>
+      element(
+        'button',
+        {
+          type: 'button',
+          'data-testid': `suggested-${effect}`,
+          'aria-label': `Add ${effect}`,
+          onclick: () => void studio.act({ do: 'add', effect }, missingLine),
+        },
+        '+ add',
+      ),
     missingStatus: element('div', {}, missingLine.root),
   });
   const diagnoser = new Diagnoser(studio, (answer) => tell(page, answer));
@@ -48,7 +60,9 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
   };
   show();
   studio.state.watch(afterPaint(show));
-  studio.connection.watch((connection) => { if (connection === 'there') diagnoser.askAgain(); });
+  studio.connection.watch((connection) => {
+    if (connection === 'there') diagnoser.askAgain();
+  });
 }
 
 /** Later, once what was changed already is on the screen: the error's fall comes before all plots. */
@@ -57,10 +71,12 @@ function afterPaint(act: () => void): () => void {
   return () => {
     if (isDue) return;
     isDue = true;
-    requestAnimationFrame(() => setTimeout(() => {
-      isDue = false;
-      act();
-    }));
+    requestAnimationFrame(() =>
+      setTimeout(() => {
+        isDue = false;
+        act();
+      }),
+    );
   };
 }
 
@@ -70,9 +86,14 @@ function tell(page: ReportPage, answer: Diagnosis | Error | null): void {
     line.tell(answer);
     page.diagnosed(null, [line.root]);
   } else if (answer === null) {
-    page.diagnosed(null, [element('p', { class: 'hint', role: 'status', 'data-testid': 'diagnosing' }, 'Looking for what is missing …')]);
+    page.diagnosed(null, [
+      element(
+        'p',
+        { class: 'hint', role: 'status', 'data-testid': 'diagnosing' },
+        'Looking for what is missing …',
+      ),
+    ]);
   } else {
     page.diagnosed(answer, []);
   }
 }
-

@@ -15,7 +15,13 @@ export class Variants {
   private readonly line = new ErrorLine();
 
   constructor(private readonly studio: Studio) {
-    this.root = element('div', { class: 'variants-section' }, element('h2', {}, 'Variants'), this.line.root, this.content);
+    this.root = element(
+      'div',
+      { class: 'variants-section' },
+      element('h2', {}, 'Variants'),
+      this.line.root,
+      this.content,
+    );
     studio.state.watch((state) => this.show(state));
   }
 
@@ -25,27 +31,52 @@ export class Variants {
     const largest = Math.max(...state.variants.map((variant) => variant.position_rmse), 1e-12);
     const rows = ordered(state.variants).map(({ variant, depth }): Child[] => [
       this.name(state, variant, depth),
-      element('span', { class: 'with-bar' }, bar(variant.position_rmse / largest), length(variant.position_rmse)),
+      element(
+        'span',
+        { class: 'with-bar' },
+        bar(variant.position_rmse / largest),
+        length(variant.position_rmse),
+      ),
       ...(hasTurns ? [variant.orientation_rmse === null ? NONE : angle(variant.orientation_rmse)] : []),
       significant(variant.reduced_chi2),
       ...(hasRatio ? [significant(variant.mass_ratio, 4)] : []),
       significant(variant.restitution, 4),
       this.comparison(state, variant),
     ]);
-    refill(this.content, table(`Each act makes a variant, and none is lost: click one to go there. All is saved in ${state.session_file}`,
-      [{ head: 'what was done' }, { head: 'positions', isNumber: true }, ...(hasTurns ? [{ head: 'orientations', isNumber: true }] : []),
-       { head: 'χ² / dof', isNumber: true }, ...(hasRatio ? [{ head: 'mass ratio', isNumber: true }] : []),
-       { head: 'restitution', isNumber: true }, { head: 'beside' }], rows, 'variants'));
+    refill(
+      this.content,
+      table(
+        `Each act makes a variant, and none is lost: click one to go there. All is saved in ${state.session_file}`,
+        [
+          { head: 'what was done' },
+          { head: 'positions', isNumber: true },
+          ...(hasTurns ? [{ head: 'orientations', isNumber: true }] : []),
+          { head: 'χ² / dof', isNumber: true },
+          ...(hasRatio ? [{ head: 'mass ratio', isNumber: true }] : []),
+          { head: 'restitution', isNumber: true },
+          { head: 'beside' },
+        ],
+        rows,
+        'variants',
+      ),
+    );
   }
 
   private name(state: StudioState, variant: Variant, depth: number): HTMLElement {
     const isCurrent = variant.id === state.current;
-    const button = element('button', {
-      type: 'button', class: 'variant', id: `variant-${variant.id}`, 'data-testid': `variant-${variant.id}`,
-      'aria-current': isCurrent ? 'true' : null,
-      title: variant.effects.length === 0 ? 'base model' : `base + ${variant.effects.join(' + ')}`,
-      onclick: () => void this.studio.act({ do: 'go', variant: variant.id }, this.line),
-    }, variant.did === '' ? 'base model' : variant.did);
+    const button = element(
+      'button',
+      {
+        type: 'button',
+        class: 'variant',
+        id: `variant-${variant.id}`,
+        'data-testid': `variant-${variant.id}`,
+        'aria-current': isCurrent ? 'true' : null,
+        title: variant.effects.length === 0 ? 'base model' : `base + ${variant.effects.join(' + ')}`,
+        onclick: () => void this.studio.act({ do: 'go', variant: variant.id }, this.line),
+      },
+      variant.did === '' ? 'base model' : variant.did,
+    );
     button.style.marginLeft = `${depth * 16}px`;
     return button;
   }
@@ -53,7 +84,10 @@ export class Variants {
   private comparison(state: StudioState, variant: Variant): Child {
     if (variant.id === state.current) return element('span', { class: 'hint' }, 'shown');
     const box = element('input', {
-      type: 'checkbox', id: `beside-${variant.id}`, checked: state.compared.includes(variant.id), 'data-testid': `compare-${variant.id}`,
+      type: 'checkbox',
+      id: `beside-${variant.id}`,
+      checked: state.compared.includes(variant.id),
+      'data-testid': `compare-${variant.id}`,
       'aria-label': `Show “${variant.did}” beside the current one`,
       onchange: () => void this.act(box, variant),
     });
@@ -61,7 +95,10 @@ export class Variants {
   }
 
   private async act(box: HTMLInputElement, variant: Variant): Promise<void> {
-    const isDone = await this.studio.act({ do: 'compare', variant: variant.id, shown: box.checked }, this.line);
+    const isDone = await this.studio.act(
+      { do: 'compare', variant: variant.id, shown: box.checked },
+      this.line,
+    );
     if (!isDone) box.checked = !box.checked;
   }
 }
@@ -69,8 +106,11 @@ export class Variants {
 /** Children below their parents; only branches are indented, a chain stays straight. */
 function ordered(variants: Variant[]): { variant: Variant; depth: number }[] {
   const rows: { variant: Variant; depth: number }[] = [];
-  const childrenOf = (parent: number | null): Variant[] => variants.filter((variant) => variant.parent === parent);
-  const waiting = childrenOf(null).map((variant) => ({ variant, depth: 0 })).reverse();
+  const childrenOf = (parent: number | null): Variant[] =>
+    variants.filter((variant) => variant.parent === parent);
+  const waiting = childrenOf(null)
+    .map((variant) => ({ variant, depth: 0 }))
+    .reverse();
   for (let next = waiting.pop(); next !== undefined; next = waiting.pop()) {
     rows.push(next);
     const children = childrenOf(next.variant.id);
@@ -81,6 +121,9 @@ function ordered(variants: Variant[]): { variant: Variant; depth: number }[] {
 }
 
 function bar(share: number): SVGElement {
-  return svg('svg', { viewBox: '0 0 60 8', class: 'bar-mark', 'aria-hidden': 'true' },
-    svg('rect', { x: 0, y: 0, width: Math.max(1, 60 * share), height: 8, fill: 'currentColor' }));
+  return svg(
+    'svg',
+    { viewBox: '0 0 60 8', class: 'bar-mark', 'aria-hidden': 'true' },
+    svg('rect', { x: 0, y: 0, width: Math.max(1, 60 * share), height: 8, fill: 'currentColor' }),
+  );
 }
