@@ -30,13 +30,17 @@ export function present(children: Child[]): (Node | string)[] {
   return kept;
 }
 
-/** Puts new children in, and gives the focus back to the element of the same `id`. */
+/** Puts new children in; what had the focus (by its `id`) or was scrolled is so again. */
 export function refill(parent: Element, ...children: Child[]): void {
   const focused = document.activeElement;
   const id = focused !== null && parent.contains(focused) ? focused.id : '';
+  const places = scrollers(parent).map((one) => [one.scrollLeft, one.scrollTop]);
   parent.replaceChildren(...present(children));
+  scrollers(parent).forEach((one, index) => one.scrollTo(places[index]?.[0] ?? 0, places[index]?.[1] ?? 0));
   if (id !== '') document.getElementById(id)?.focus({ preventScroll: true });
 }
+
+const scrollers = (parent: Element): Element[] => [...parent.querySelectorAll('.scroll')];
 
 let counter = 0;
 

@@ -146,6 +146,7 @@ export class ResidualPlot {
           grid,
           font,
           size: 48,
+          space: 24,
           ticks: { show: false },
           values: (_, splits) => splits.map(short),
         },

@@ -61,7 +61,7 @@ function legend(): HTMLElement {
     key('before', '●'),
     ' before and ',
     key('after', '▲'),
-    ' after the impact (dashed line), ◎ outliers. ',
+    ' after the impact (dashed line), ◎ outliers, ✕ marked wrong. ',
     'Point at a plot: 3D shows that moment, and the line follows in all plots.',
   );
 }
