@@ -48,11 +48,11 @@ export class ResidualsSection {
         own.length === 0 && element('p', { class: 'hint' }, 'No residuals: ', missing(model)),
       );
     });
-    this.root.replaceChildren(legend(), ...groups);
+    this.root.replaceChildren(legend(this.acts !== null), ...groups);
   }
 }
 
-function legend(): HTMLElement {
+function legend(canMark: boolean): HTMLElement {
   const key = (side: string, shape: string): HTMLElement =>
     element('span', { class: side, 'aria-hidden': 'true' }, shape);
   return element(
@@ -61,7 +61,8 @@ function legend(): HTMLElement {
     key('before', '●'),
     ' before and ',
     key('after', '▲'),
-    ' after the impact (dashed line), ◎ outliers, ✕ marked wrong. ',
+    ' after the impact (dashed line), ◎ outliers',
+    canMark ? ', ✕ marked wrong. ' : '. ',
     'Point at a plot: 3D shows that moment, and the line follows in all plots.',
   );
 }
