@@ -58,12 +58,7 @@ export class Catalogue {
     return element(
       'li',
       {},
-      element(
-        'div',
-        { class: 'row' },
-        element('strong', {}, effect.title),
-        ...this.buttons(effect.labels, present),
-      ),
+      element('div', { class: 'row' }, element('strong', {}, effect.title), ...this.buttons(effect, present)),
       element('div', { class: 'hint' }, element('code', {}, effect.name), ` ${effect.looks_like}`),
       effect.tell_apart !== '' && element('div', { class: 'hint' }, `To tell it apart: ${effect.tell_apart}`),
     );
@@ -78,14 +73,16 @@ export class Catalogue {
         { class: 'row' },
         element('strong', {}, law.name),
         element('span', { class: 'hint' }, 'your own'),
-        ...this.buttons(law.labels, present),
+        ...this.buttons(law, present),
         element('button', { type: 'button', onclick: () => this.edit(law.text) }, 'Edit'),
       ),
     );
   }
 
-  private buttons(labels: string[], present: string[]): Child[] {
-    return labels.map((label) => this.toggle(label, present.includes(label)));
+  /** What is in the model may not be among what can be added. */
+  private buttons({ name, labels }: { name: string; labels: string[] }, present: string[]): Child[] {
+    const own = present.filter((label) => label === name || label.startsWith(`${name}@`));
+    return [...new Set([...own, ...labels])].map((label) => this.toggle(label, present.includes(label)));
   }
 
   /** Adds what isn't in the model, takes out what is. */
