@@ -79,24 +79,30 @@ export class Catalogue {
     );
   }
 
-  /** What is in the model may not be among what can be added. */
+  /** To take out what is in the model, and to add what can be: what acts at one moment, more than once. */
   private buttons({ name, labels }: { name: string; labels: string[] }, present: string[]): Child[] {
-    const own = present.filter((label) => label === name || label.startsWith(`${name}@`));
-    return [...new Set([...own, ...labels])].map((label) => this.toggle(label, present.includes(label)));
+    const own = new Set(present.filter((label) => label === name || label.startsWith(`${name}@`)));
+    return [
+      ...[...own].map((label) => this.button('remove', label, `effect-${label}`)),
+      ...labels.map((label) =>
+        this.button('add', label, `${own.has(label) ? 'another' : 'effect'}-${label}`),
+      ),
+    ];
   }
 
-  /** Adds what isn't in the model, takes out what is. */
-  private toggle(label: string, isIn: boolean): HTMLElement {
-    const where = label.includes('@') ? label.slice(label.indexOf('@') + 1) : 'all';
+  /** Of the same `id` whether it adds or takes out, so that the focus stays. */
+  private button(act: 'add' | 'remove', effect: string, id: string): HTMLElement {
+    const where = effect.includes('@') ? effect.slice(effect.indexOf('@') + 1) : 'all';
+    const isIn = act === 'remove';
     return element(
       'button',
       {
         type: 'button',
-        id: `effect-${label}`,
-        'data-testid': `${isIn ? 'drop' : 'add'}-${label}`,
-        'aria-pressed': String(isIn),
-        'aria-label': isIn ? `Take ${label} out` : `Add ${label}`,
-        onclick: () => void this.studio.act({ do: isIn ? 'remove' : 'add', effect: label }, this.line),
+        id,
+        class: isIn ? 'is-in' : null,
+        'data-testid': `${isIn ? 'drop' : 'add'}-${effect}`,
+        'aria-label': isIn ? `Take ${effect} out` : `Add ${effect}`,
+        onclick: () => void this.studio.act({ do: act, effect }, this.line),
       },
       isIn ? `− ${where}` : `+ ${where}`,
     );
