@@ -47,6 +47,8 @@ export class Catalogue {
       .map((law) => this.law(law, effects));
     const known = state.catalogue
       .filter((effect) => fits([effect.name, effect.title, effect.looks_like, effect.tell_apart]))
+      // What this scene can't show comes last.
+      .sort((a, b) => Number(isOfUse(b, effects)) - Number(isOfUse(a, effects)))
       .map((effect) => this.effect(effect, effects));
     const none =
       own.length + known.length === 0 &&
@@ -81,7 +83,9 @@ export class Catalogue {
 
   /** To take out what is in the model, and to add what can be: what acts at one moment, more than once. */
   private buttons({ name, labels }: { name: string; labels: string[] }, present: string[]): Child[] {
-    const own = new Set(present.filter((label) => label === name || label.startsWith(`${name}@`)));
+    const own = new Set(present.filter((label) => isOf(name, label)));
+    if (own.size + labels.length === 0)
+      return [element('span', { class: 'hint' }, 'this scene can’t show it')];
     return [
       ...[...own].map((label) => this.button('remove', label, `effect-${label}`)),
       ...labels.map((label) =>
@@ -107,4 +111,14 @@ export class Catalogue {
       isIn ? `− ${where}` : `+ ${where}`,
     );
   }
+}
+
+/** Whether a label is one of this effect's. */
+function isOf(name: string, label: string): boolean {
+  return label === name || label.startsWith(`${name}@`);
+}
+
+/** Whether it can be added to the model, or is in it. */
+function isOfUse({ name, labels }: CatalogueEffect, present: string[]): boolean {
+  return labels.length > 0 || present.some((label) => isOf(name, label));
 }
