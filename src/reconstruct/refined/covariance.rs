@@ -23,10 +23,11 @@ impl Covariance {
     /// The inverse of `information`, or its pseudo-inverse where it has none.
     pub(super) fn new(information: &DMatrix<f64>) -> Self {
         let size = information.nrows();
-        // What no datum depends on at all weighs as much as what is known best: it must stand out in
+        let known = information.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 });
+        // What no datum depends on at all weighs as much as what is known worst: it must stand out in
         // a gradient, however small the noise.
-        let best = 1.0 / information.diagonal().max().max(f64::MIN_POSITIVE).sqrt();
-        let scale = information.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { best });
+        let worst = known.max();
+        let scale = known.map(|scale| if scale > 0.0 { scale } else { worst });
         let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
         let (inverse, undetermined) = invert(scaled);
         let matrix = DMatrix::from_fn(size, size, |i, j| inverse[(i, j)] * scale[i] * scale[j]);
@@ -36,7 +37,7 @@ impl Covariance {
     /// The standard deviation of a quantity with this `gradient`; `None` where the data leave it
     /// open.
     pub(super) fn std(&self, gradient: &DVector<f64>) -> Option<f64> {
-        let scaled = gradient.component_div(&self.scale);
+        let scaled = gradient.component_mul(&self.scale);
         let open = self.undetermined.tr_mul(&scaled).norm_squared();
         if open > TOLERATED_SHARE * scaled.norm_squared() {
             return None;
@@ -82,6 +83,17 @@ mod tests {
         let sum = covariance.std(&DVector::from_vec(vec![1.0, 1.0]));
         assert!((sum.unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(covariance.std(&DVector::from_vec(vec![1.0, 0.0])), None);
+    }
+
+    /// The same where the two are of very different size.
+    #[test]
+    fn a_sum_of_different_units_has_a_deviation() {
+        let covariance = Covariance::new(&DMatrix::from_row_slice(2, 2, &[1.0, 1e-3, 1e-3, 1e-6]));
+        let sum = covariance.std(&DVector::from_vec(vec![1.0, 1e-3]));
+        assert!((sum.unwrap() - 1.0).abs() < 1e-12, "{sum:?}");
+        for alone in [vec![1.0, 0.0], vec![0.0, 1.0]] {
+            assert_eq!(covariance.std(&DVector::from_vec(alone)), None);
+        }
     }
 
     /// The same when the other unknown is known to a thousand-millionth, and the noise so small.

@@ -4,8 +4,8 @@ use nalgebra::DMatrix;
 
 use super::covariance::Covariance;
 use crate::bridge::refined::ffi::{
-    self, RefinedBody, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution, RefinedUnknowns,
-    RestitutionPin,
+    self, ParameterRule, RefinedBody, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution,
+    RefinedUnknowns, RestitutionPin,
 };
 use crate::effect::Hook;
 use crate::reconstruct::solver_error;
@@ -162,7 +162,45 @@ fn optimum(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result
 }
 
 fn solved(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result<RefinedSolution> {
-    ffi::solve_refined(scene, &free_problem(unknowns, &gap)).map_err(solver_error)
+    let solution =
+        ffi::solve_refined(scene, &free_problem(unknowns, &gap)).map_err(solver_error)?;
+    match held_at_bounds(scene, &solution.unknowns) {
+        Some(held) => along_bounds(scene, &held, solution, gap),
+        None => Ok(solution),
+    }
+}
+
+/// The scene with the parameters held that are at a bound; `None` where none is.
+fn held_at_bounds(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Option<RefinedScene> {
+    let mut held = scene.clone();
+    for (rule, value) in held.parameters.iter_mut().zip(&unknowns.parameters) {
+        rule.held |= *value <= rule.low || *value >= rule.high;
+    }
+    let is_new = |(rule, known): (&ParameterRule, &ParameterRule)| rule.held && !known.held;
+    held.parameters.iter().zip(&scene.parameters).any(is_new).then_some(held)
+}
+
+/// On from where a parameter met its bound: Ceres cuts whole steps short there, also of what could
+/// still move, and may take that for convergence.
+fn along_bounds(
+    scene: &RefinedScene,
+    held: &RefinedScene,
+    met: RefinedSolution,
+    gap: Gap,
+) -> Result<RefinedSolution> {
+    let moved =
+        ffi::solve_refined(held, &free_problem(&met.unknowns, &gap)).map_err(solver_error)?;
+    if moved.cost >= met.cost {
+        return Ok(met);
+    }
+    let mut problem = free_problem(&moved.unknowns, &gap);
+    problem.most_iterations = 0;
+    Ok(RefinedSolution {
+        cost_initial: met.cost_initial,
+        iterations: met.iterations + moved.iterations,
+        converged: moved.converged,
+        ..ffi::solve_refined(scene, &problem).map_err(solver_error)?
+    })
 }
 
 /// The model at `unknowns`, with its Jacobian; nothing is optimised.

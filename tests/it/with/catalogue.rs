@@ -59,6 +59,12 @@ fn assert_keeps_the_contract(scene: &Scene, least_effects: usize) {
         for (found, expected) in pairs {
             let (found, expected) = match (found, expected) {
                 (Some(found), Some(expected)) => (found, expected),
+                // A further impact beside the collision may leave no jump to it that stands out.
+                (None, _) if result.collision_time.value.is_none() => {
+                    assert_eq!(request.effect.name, "second_impact", "{name}");
+                    assert!(compared.reason.is_some(), "{name}");
+                    continue;
+                }
                 (found, expected) => {
                     assert_eq!(found.is_some(), expected.is_some(), "{name}");
                     continue;
