@@ -72,6 +72,8 @@ export class Stage {
     this.camera.add(this.sun);
     this.sun.position.set(-0.6, 1, 0.6);
     new ResizeObserver(() => this.fit()).observe(holder);
+    // The browser takes the context from pages that were long out of sight.
+    canvas.addEventListener('webglcontextrestored', () => this.rebuild());
     this.fit();
   }
 
