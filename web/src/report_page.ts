@@ -87,6 +87,7 @@ export class ReportPage {
     if (this.stage === null) {
       this.stage = new StageSection(report.scene, this.clock);
       this.look.replaceChildren(
+        element('h2', { class: 'visually-hidden' }, 'The collision, and what the model leaves of the poses'),
         this.stage.root,
         element('div', {}, ...(this.live ? [this.live.plotTools] : []), this.residuals.root),
       );
