@@ -10,6 +10,7 @@ pub mod batch;
 pub mod compare;
 pub mod diagnose;
 pub mod effect;
+pub mod export;
 pub mod files;
 pub mod import;
 pub mod improve;

@@ -10,8 +10,6 @@ use crate::rigid_body::omega_in_world;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::{Reconstruction, Result, Scene};
 
-/// The last sample before the collision is as much before it: its pose is that of the collision.
-const BEFORE_COLLISION_S: f64 = 1e-9;
 /// As many samples a body, whatever the film's length.
 const MOST_SAMPLES: f64 = 20_000.0;
 
@@ -67,14 +65,26 @@ pub struct Track {
 /// # Ok::<(), smash::Error>(())
 /// ```
 pub fn motion(scene: &Scene, result: &Reconstruction, rate_hz: f64) -> Result<Option<Motion>> {
+    sampled(scene, result, |first_s, last_s| between(first_s, last_s, rate_hz))
+}
+
+/// Samples the motion as [`motion`] does, at times of the caller's: `times` gives those from one time to
+/// another, with both.
+pub(crate) fn sampled(
+    scene: &Scene,
+    result: &Reconstruction,
+    times: impl Fn(f64, f64) -> Vec<f64>,
+) -> Result<Option<Motion>> {
     let Some(collision_time_s) = result.collision_time.value else { return Ok(None) };
+    // The last sample before the collision: its pose is that of the collision.
+    let before_s = collision_time_s.next_down();
     let result = without_wrong_poses(result)?;
     let stamps = |index: usize| {
         let seen = scene.bodies()[index].observations.iter().map(|pose| pose.time_s);
-        let first_s = seen.clone().fold(collision_time_s, f64::min);
+        let first_s = seen.clone().fold(before_s, f64::min);
         let last_s = seen.fold(collision_time_s, f64::max);
-        let mut all = between(first_s, collision_time_s - BEFORE_COLLISION_S, rate_hz);
-        all.extend(between(collision_time_s, last_s, rate_hz));
+        let mut all = times(first_s, before_s);
+        all.extend(times(collision_time_s, last_s));
         all
     };
     let bodies = (0..scene.bodies().len()).map(stamps).collect();
@@ -87,8 +97,8 @@ pub fn motion(scene: &Scene, result: &Reconstruction, rate_hz: f64) -> Result<Op
         let mut motion =
             BodyMotion { name: body.name.clone(), before: track(&before), after: track(&after) };
         motion.after.follow(&motion.before);
-        if let Some(last_s) = motion.before.times.last_mut() {
-            *last_s += BEFORE_COLLISION_S;
+        if let Some(last_s) = motion.before.times.last_mut().filter(|last_s| **last_s == before_s) {
+            *last_s = collision_time_s;
         }
         motion
     });
@@ -111,7 +121,9 @@ fn without_wrong_poses(result: &Reconstruction) -> Result<Reconstruction> {
 /// Evenly spaced times with both ends.
 fn between(first_s: f64, last_s: f64, rate_hz: f64) -> Vec<f64> {
     let steps = ((last_s - first_s) * rate_hz).ceil().clamp(1.0, MOST_SAMPLES);
-    (0..=steps as usize).map(|step| first_s + (last_s - first_s) * (step as f64 / steps)).collect()
+    // So written that both ends are exact.
+    let time = |part: f64| (1.0 - part) * first_s + part * last_s;
+    (0..=steps as usize).map(|step| time(step as f64 / steps)).collect()
 }
 
 fn track(poses: &[(f64, FlownPose)]) -> Track {

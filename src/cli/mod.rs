@@ -6,6 +6,7 @@ mod comparison;
 mod diagnose;
 mod doctor;
 mod effects;
+mod export;
 mod import;
 mod improve;
 mod ledger;
@@ -43,6 +44,7 @@ enum Command {
     Diagnose(diagnose::Arguments),
     Improve(improve::Arguments),
     Report(report::Arguments),
+    Export(export::Arguments),
     Power(power::Arguments),
     Effects(effects::Arguments),
     Import(import::Arguments),
@@ -62,6 +64,7 @@ pub fn main() -> ExitCode {
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Improve(arguments) => improve::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
         Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
@@ -90,9 +93,9 @@ fn warn(warnings: &[impl std::fmt::Display]) {
 /// Standard output can't carry the file and, for `--json`, the words on it.
 fn refuse_json_beside(output: &Output, as_json: bool) -> smash::Result<()> {
     if output.is_standard_output() && as_json {
-        return Err(Error::new(ErrorKind::Write, "carries the scene: `--json` has no place on it")
+        return Err(Error::new(ErrorKind::Write, "carries the file: `--json` has no place on it")
             .in_file("(standard output)")
-            .mend("write the scene to a file, or leave `--json` out"));
+            .mend("write to a file, or leave `--json` out"));
     }
     Ok(())
 }

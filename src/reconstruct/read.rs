@@ -9,10 +9,9 @@ use super::{Estimate, RESULT_SCHEMA, Reconstruction};
 use crate::files::{display_name, read_text};
 use crate::json::decode;
 use crate::rigid_body::quaternion::to_wxyz;
-use crate::scene::Setting;
 use crate::scene::values::{check_range, unit_quaternion};
 use crate::words::listed;
-use crate::{Error, Result};
+use crate::{Error, Result, Scene};
 
 /// Far beyond any collision, and far enough from overflow that squares stay finite.
 const NUMBERS: RangeInclusive<f64> = -1e100..=1e100;
@@ -76,32 +75,36 @@ impl Reconstruction {
                 *wxyz = to_wxyz(&unit_quaternion(&place, *wxyz)?);
             }
         }
-        if let Some(setting) = &self.setting {
-            check_setting(&self, setting)?;
-        }
+        self.own_scene()?;
         Ok(self)
     }
-}
 
-/// Checks that `setting` is in order, and can be of this result.
-fn check_setting(result: &Reconstruction, setting: &Setting) -> Result<()> {
-    setting.scene("setting", &result.scene)?;
-    let mend = "reconstruct the scene again";
-    let of_result = result.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
-    let of_setting = setting.bodies.iter().map(|body| body.name.as_str()).collect::<Vec<_>>();
-    if of_setting != of_result {
-        let problem =
-            format!("are {}, but the result moves {}", listed(&of_setting), listed(&of_result));
-        return Err(Error::invalid("setting.bodies", problem).mend(mend));
-    }
-    let first_s = setting.bodies.iter().map(|body| body.seen[0]).fold(f64::INFINITY, f64::min);
-    let last_s = setting.bodies.iter().map(|body| body.seen[1]).fold(f64::NEG_INFINITY, f64::max);
-    match result.collision_time.value {
-        Some(time_s) if !(first_s..=last_s).contains(&time_s) => {
-            let problem = format!("is {time_s} s, but poses are from {first_s} s to {last_s} s");
-            Err(Error::invalid("collision_time.value", problem).mend(mend))
+    /// The scene that its setting tells, without poses; `None` without a setting.
+    ///
+    /// # Errors
+    /// The setting breaks a rule, or can't be of this result.
+    pub(crate) fn own_scene(&self) -> Result<Option<Scene>> {
+        let Some(setting) = &self.setting else { return Ok(None) };
+        let scene = setting.scene("setting", &self.scene)?;
+        let mend = "reconstruct the scene again";
+        let of_result: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+        let of_setting: Vec<&str> = setting.bodies.iter().map(|b| b.name.as_str()).collect();
+        if of_setting != of_result {
+            let problem =
+                format!("are {}, but the result moves {}", listed(&of_setting), listed(&of_result));
+            return Err(Error::invalid("setting.bodies", problem).mend(mend));
         }
-        _ => Ok(()),
+        let seen = || setting.bodies.iter().flat_map(|body| body.seen);
+        let first_s = seen().fold(f64::INFINITY, f64::min);
+        let last_s = seen().fold(f64::NEG_INFINITY, f64::max);
+        match self.collision_time.value {
+            Some(time_s) if !(first_s..=last_s).contains(&time_s) => {
+                let problem =
+                    format!("is {time_s} s, but poses are from {first_s} s to {last_s} s");
+                Err(Error::invalid("collision_time.value", problem).mend(mend))
+            }
+            _ => Ok(Some(scene)),
+        }
     }
 }
 

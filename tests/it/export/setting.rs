@@ -1,16 +1,10 @@
 //! What a result carries of its scene.
 
 use serde_json::{Value, json};
-use smash::{Options, Reconstruction, Scene, reconstruct};
+use smash::{Options, Reconstruction, reconstruct};
 
+use super::{SCENES, result, scene};
 use crate::scenes::edited;
-
-const SCENES: [&str; 5] =
-    ["boxes", "uneven_times", "ball_on_floor", "box_on_floor", "thrown_ball_drag"];
-
-fn scene(name: &str) -> Scene {
-    Scene::read(format!("{}/scenes/{name}.json", env!("CARGO_MANIFEST_DIR"))).unwrap()
-}
 
 #[test]
 fn both_presets_say_where_and_when_the_collision_was_seen() {
@@ -36,7 +30,7 @@ fn both_presets_say_where_and_when_the_collision_was_seen() {
 
 #[test]
 fn a_result_of_an_older_version_is_read_without_one() {
-    let result = reconstruct(&scene("boxes"), &Options::default()).unwrap();
+    let result = result("boxes");
     let older = edited(serde_json::to_value(&result).unwrap(), |result| {
         result.as_object_mut().unwrap().remove("setting");
     });
@@ -48,8 +42,7 @@ type Case = (fn(&mut Value), &'static str, &'static str);
 
 /// Each rule broken once: the place and a word of the problem or the mend.
 fn assert_refused(scene_name: &str, cases: &[Case]) {
-    let good = reconstruct(&scene(scene_name), &Options::default()).unwrap();
-    let good = serde_json::to_value(good).unwrap();
+    let good = serde_json::to_value(result(scene_name)).unwrap();
     for (edit, place, word) in cases {
         let text = edited(good.clone(), |result| edit(&mut result["setting"])).to_string();
         let error = Reconstruction::parse(&text, "result.json").unwrap_err();
@@ -107,4 +100,13 @@ fn broken_settings_are_refused_by_name() {
         ),
     ];
     assert_refused("ball_on_floor", cases);
+}
+
+/// Results may be edited in a program, too: what doesn't fit together isn't flown.
+#[test]
+fn a_setting_of_other_bodies_is_not_flown() {
+    let mut edited = result("boxes");
+    edited.bodies.pop();
+    let error = smash::export::csv(&edited, None).unwrap_err();
+    assert_eq!(error.place(), Some("setting.bodies"));
 }
