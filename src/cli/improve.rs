@@ -76,11 +76,7 @@ fn write_words(
     improvement: &Improvement,
     again: impl Fn(&Rung) -> String,
 ) -> std::fmt::Result {
-    let header =
-        ["model", "p-value", "positions", "held out", "orientations", "χ²/dof", "m_b/m_a", "c"];
-    let mut rows = vec![header.map(String::from).to_vec()];
-    rows.extend(improvement.ladder.iter().map(row));
-    writeln!(out, "{}", aligned(&rows))?;
+    writeln!(out, "{}", aligned(&table_of(&improvement.ladder)))?;
     if !improvement.dropped.is_empty() {
         writeln!(
             out,
@@ -107,6 +103,13 @@ fn write_words(
         writeln!(out, "  {}", again(rung))?;
     }
     Ok(())
+}
+
+/// A header, and a row for each rung.
+pub fn table_of(ladder: &[Rung]) -> Vec<Vec<String>> {
+    let header =
+        ["model", "p-value", "positions", "held out", "orientations", "χ²/dof", "m_b/m_a", "c"];
+    std::iter::once(header.map(String::from).to_vec()).chain(ladder.iter().map(row)).collect()
 }
 
 fn row(rung: &Rung) -> Vec<String> {

@@ -1,8 +1,10 @@
 //! The commands of `smash`, one file each.
 
 mod batch;
+mod browser;
 mod compare;
 mod comparison;
+mod demo;
 mod diagnose;
 mod doctor;
 mod effects;
@@ -38,6 +40,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Demo(demo::Arguments),
     Reconstruct(reconstruct::Arguments),
     Batch(batch::Arguments),
     Compare(compare::Arguments),
@@ -58,6 +61,7 @@ enum Command {
 pub fn main() -> ExitCode {
     smash::silence_solver_log();
     let outcome = match Arguments::parse().command {
+        Command::Demo(arguments) => demo::run(&arguments),
         Command::Reconstruct(arguments) => reconstruct::run(&arguments),
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),

@@ -8,7 +8,7 @@ use smash::reconstruct::{
     Preset, Reconstruction, SegmentCriterion,
 };
 
-use super::table::decimals;
+use super::table::{decimals, digits_of};
 
 /// The summary that `smash reconstruct` prints.
 pub fn of(result: &Reconstruction, next: &[String], output: Option<&Output>) -> String {
@@ -100,11 +100,6 @@ fn number(estimate: &Estimate, unit: &str) -> String {
         text += &format!("    95 %: {low:.digits$} to {high:.digits$}");
     }
     text + &reason
-}
-
-/// Two digits of the deviation, and no more of the value.
-fn digits_of(std: f64) -> usize {
-    (1.0 - std.log10().floor()).clamp(0.0, 9.0) as usize
 }
 
 fn noise_words(noise: &NoiseReport, reduced_chi2: Option<f64>) -> String {

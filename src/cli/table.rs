@@ -39,6 +39,11 @@ pub fn decimals(value: f64, digits: usize) -> String {
     if is_zero { text.trim_start_matches('-').to_string() } else { text }
 }
 
+/// Two digits of the deviation, and no more of the value.
+pub fn digits_of(std: f64) -> usize {
+    (1.0 - std.log10().floor()).clamp(0.0, 9.0) as usize
+}
+
 /// A p-value; whether it is 1e-20 or 1e-30 tells nobody anything.
 pub fn p_value(p: f64) -> String {
     match p {

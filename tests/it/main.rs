@@ -9,6 +9,7 @@ mod batch;
 mod browser;
 mod collision;
 mod compare;
+mod demo;
 mod docs;
 mod doubts;
 mod effects;
