@@ -8,7 +8,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
 export const ROOT = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
-const SMASH = process.env.SMASH ?? join(ROOT, 'target', 'debug', 'smash');
+export const SMASH = process.env.SMASH ?? join(ROOT, 'target', 'debug', 'smash');
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** A temporary folder, gone when the process ends. */

@@ -7,7 +7,10 @@ import type { ErrorLine } from './error_line';
 import type { Studio } from './studio';
 
 const WORDS: Record<Mode, [name: string, how: string]> = {
-  look: ['look', 'Shift-click marks a pose wrong, Alt-drag moves it in time, whatever is chosen here.'],
+  look: [
+    'look',
+    'In plots: Shift-click marks a pose wrong, Alt-drag moves it in time, whatever is chosen here.',
+  ],
   mark: ['mark wrong', 'Click a pose to leave it out of the fit; click it again to take it back.'],
   time: ['move in time', 'Drag a pose to the left or right, up to its neighbours.'],
   noise: ['noise', 'Drag the edge of the grey band, ±2 σ.'],
@@ -42,7 +45,7 @@ export class PlotModes implements PoseActs {
     this.root = element(
       'div',
       { class: 'modes' },
-      element('fieldset', {}, element('legend', {}, 'Mouse in plots'), ...choices),
+      element('fieldset', {}, element('legend', {}, 'Mouse'), ...choices),
       how,
     );
   }
