@@ -19,13 +19,16 @@ pub struct Setting {
     /// Gravity in m/s², as the scene states it.
     pub gravity: f64,
     /// Frames per second, if the scene states them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
     /// The camera's centre, if the scene states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<SettingCamera>,
     /// The dynamic bodies, the reference body first.
     #[schemars(length(min = 1, max = 2))]
     pub bodies: Vec<SettingBody>,
     /// The static body, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<SettingPlane>,
 }
 
