@@ -14,9 +14,11 @@ pub struct Answer {
     /// `NAME@BODY` of what comes first, where something is named.
     pub first: Option<String>,
     /// What can't be told from it.
-    alike: Vec<String>,
+    pub alike: Vec<String>,
     /// Whether it says that the effect leaves more than noise.
-    pub is_warned: bool,
+    pub stays_structured: bool,
+    /// Whether it says that a law outside the catalogue can't be told from the effect.
+    pub names_other_laws: bool,
 }
 
 impl Answer {
@@ -30,8 +32,8 @@ impl Answer {
             verdict: diagnosis.verdict,
             first: first.map(|first| first.label()),
             alike: first.map_or(Vec::new(), |first| first.indistinguishable_from.clone()),
-            // It stands in words alone.
-            is_warned: diagnosis.explanation.contains("stay structured"),
+            stays_structured: diagnosis.stays_structured,
+            names_other_laws: !diagnosis.other_laws.is_empty(),
         })
     }
 

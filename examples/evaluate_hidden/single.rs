@@ -88,8 +88,9 @@ pub fn tables(cases: &[Case]) -> Result<String> {
     let all: Vec<&Single> = singles.iter().collect();
     let mut text = String::from(
         "## Which effect is missing\n\n\
-         | hidden | scenes | detected | first | in the set | or of its class | answers |\n\
-         |---|---|---|---|---|---|---|\n",
+         | hidden | scenes | detected | first | in the set | or of its class | names in the set | \
+         right, but warned | right, or a law outside | answers |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
     );
     kinds.iter().for_each(|kind| text += &naming(kind, &of(kind)));
     text += &naming("all", &all);
@@ -127,12 +128,16 @@ fn naming(kind: &str, singles: &[&Single]) -> String {
     let answers: Vec<String> =
         answers.iter().map(|(name, count)| format!("{name} {count}")).collect();
     format!(
-        "| {kind} | {} | {} | {} | {} | {} | {} |\n",
+        "| {kind} | {} | {} | {} | {} | {} | {:.1} | {} | {} | {} |\n",
         singles.len(),
         share(|s| s.answer.is_detected()),
         share(|s| s.is_first),
         share(|s| s.is_in_set),
         share(|s| s.is_of_class),
+        singles.iter().map(|s| 1.0 + s.answer.alike.len() as f64).sum::<f64>()
+            / singles.len() as f64,
+        share(|s| s.is_first && s.answer.stays_structured),
+        share(|s| s.is_first && s.answer.names_other_laws),
         if kind == "all" { String::new() } else { answers.join(", ") },
     )
 }

@@ -2,8 +2,8 @@
 
 use super::FALSE_ALARM;
 use super::evidence::{Evidence, evidence};
-use super::held_out::{HeldOut, held_out};
-use crate::effect::{EffectRequest, Hook, Scan, catalogue};
+use super::held_out::HeldOut;
+use crate::effect::{EffectRequest, Hook, Scan, Scope, catalogue};
 use crate::reconstruct::refined::{Fitted, Instance, gains, instances, points, possible, scanned};
 use crate::{Result, Scene};
 
@@ -20,7 +20,7 @@ pub(crate) struct Candidate {
     /// Against none: the smaller, the better; −2 ln of the odds but for a constant.
     pub(crate) bic: f64,
     /// How poses are predicted without and with the effect.
-    pub(crate) held_out: Option<[HeldOut; 2]>,
+    pub(crate) held_out: Option<(HeldOut, HeldOut)>,
     /// Whether they are predicted better with it, positions and orientations together.
     pub(crate) predicts: bool,
 }
@@ -82,7 +82,7 @@ pub(super) fn promising(
         others.iter().map(|&i| (instances[i].clone(), instances[i].null())).collect();
     let mut scores = vec![f64::NEG_INFINITY; instances.len()];
     for (&index, gain) in others.iter().zip(gains(fitted, &tests)?) {
-        scores[index] = gain;
+        scores[index] = gain.chi2;
     }
     for index in scans {
         let scanned = scanned(fitted, scene, &instances[index])?;
@@ -97,8 +97,8 @@ pub(super) fn promising(
     let is_worth_it = |(rank, index): (usize, &usize)| {
         rank < FEWEST_REFITTED
             || scores[*index] > WORTH * best.max(0.0)
-            // Strong friction bends the model without it too far for slopes to tell.
-            || instances[*index].acts_at_the_contact()
+            // What is strong at the contact bends the model without it too far for slopes to tell.
+            || instances[*index].effect.scope == Scope::Contact
     };
     let kept = order.iter().enumerate().filter(|(rank, index)| is_worth_it((*rank, index)));
     Ok(kept.map(|(_, index)| instances[*index].clone()).collect())
@@ -111,18 +111,15 @@ pub(super) fn candidate(
     without: &Fitted,
     with: Fitted,
     tried: usize,
-    before: Option<HeldOut>,
+    before: Option<&HeldOut>,
 ) -> Option<Candidate> {
     let instance = &with.acting.last()?.instance;
     let scanned = points(scene, instance).len().max(1);
     let evidence = evidence(without, &with, scanned, tried)?;
     let bic = evidence.bic(with.numbers(), instance.is_of_a_pose().then_some(scanned));
-    let held_out = before.zip(held_out(&with)).map(|(before, after)| [before, after]);
+    let held_out = before.cloned().zip(HeldOut::of(&with, without.collision_time_s()));
     // What happens at one moment can't be told from the other poses.
     let predicts = instance.is_of_a_moment()
-        || held_out.is_none_or(|[before, after]| {
-            let noise = without.noise.value;
-            after.in_sigma(noise) < before.in_sigma(noise)
-        });
+        || held_out.as_ref().is_none_or(|(before, after)| after.gain_on(before) > 0.0);
     Some(Candidate { fitted: with, evidence, bic, held_out, predicts })
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::rivals::OtherLaw;
 use super::unexplained::Unexplained;
 use crate::compare::ChannelTest;
 use crate::reconstruct::{ActiveEffect, ParameterEstimate};
@@ -41,6 +42,10 @@ pub struct Diagnosis {
     /// clearest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unexplained: Vec<Unexplained>,
+    /// Laws of simple forms that the catalogue hasn't got, and that these poses can't tell from the
+    /// best candidate, or prefer to it; the best first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other_laws: Vec<OtherLaw>,
     /// The answer in plain words.
     pub explanation: String,
     /// What to film or measure to tell candidates apart, and the command to type next.

@@ -3,7 +3,7 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::FALSE_ALARM;
-use crate::reconstruct::refined::Fitted;
+use crate::reconstruct::refined::{Fitted, Gain};
 
 /// What speaks for a larger model against one that it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +46,18 @@ pub(crate) fn evidence(
     let chances = (scanned * tried) as f64;
     let p_value = (chances * single).min(1.0);
     Some(Evidence { delta, delta_chi2, parameters, p_value })
+}
+
+/// How often noise alone lets a model gain as much by one effect, told from its slopes.
+pub(super) fn by_chance(fitted: &Fitted, gain: &Gain) -> f64 {
+    let count = gain.directions as f64;
+    if fitted.has_stated_noise() {
+        return ChiSquared::new(count).map_or(1.0, |chi| chi.sf(gain.chi2));
+    }
+    let spare = fitted.numbers() - fitted.used();
+    let left = (fitted.chi2() - gain.chi2).max(f64::MIN_POSITIVE);
+    let f = gain.chi2 / count / (left / (spare - count));
+    FisherSnedecor::new(count, spare - count).map_or(1.0, |fisher| fisher.sf(f))
 }
 
 /// Fisher's F-test of nested models, exact for one channel: how often noise alone lets −2 ln L fall

@@ -2,8 +2,10 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::compare::ChannelTest;
+use super::reported;
+use crate::compare::{ChannelTest, channels};
 use crate::reconstruct::refined::Fitted;
+use crate::{Result, Scene};
 
 /// Noise alone leaves more in one scene of ten thousand.
 const IMPROBABLE: f64 = 1e-4;
@@ -18,8 +20,13 @@ pub(crate) struct Goodness {
 }
 
 impl Goodness {
-    /// By χ² where the noise is stated, else by the tests of randomness.
-    pub(crate) fn of(fitted: &Fitted, channels: &[ChannelTest]) -> Goodness {
+    /// That of a fit of `scene`.
+    pub(crate) fn of(scene: &Scene, fitted: &Fitted) -> Result<Goodness> {
+        Ok(Goodness::by(fitted, &channels(scene, &reported(scene, fitted)?)?))
+    }
+
+    /// By the tests of randomness, and by χ² where the noise is stated.
+    pub(crate) fn by(fitted: &Fitted, channels: &[ChannelTest]) -> Goodness {
         let looks_structured = channels.iter().any(|channel| channel.fails);
         if !fitted.has_stated_noise() {
             return Goodness { excess: None, is_structured: looks_structured };
@@ -27,6 +34,7 @@ impl Goodness {
         let spare = (fitted.numbers() - fitted.used()).max(1.0);
         let chi2 = fitted.chi2();
         let tail = ChiSquared::new(spare).map_or(1.0, |chi| chi.sf(chi2));
-        Goodness { excess: Some(chi2 - spare), is_structured: tail < IMPROBABLE }
+        let is_structured = looks_structured || tail < IMPROBABLE;
+        Goodness { excess: Some(chi2 - spare), is_structured }
     }
 }

@@ -1,27 +1,36 @@
-//! How well a model predicts poses that it hasn't seen.
+//! How well a model predicts poses that it wasn't fitted to.
 //!
 //! Blocks of neighbouring poses are left out, one after the other. Where the model is as good as
 //! linear, what the others predict follows from the hat matrix H of the whole fit: the residuals of
-//! block B become (1 − H_BB)⁻¹ r_B (Cook & Weisberg, *Residuals and Influence in Regression*, 1982).
+//! block B become (1 − H_BB)⁻¹ r_B, with the covariance (1 − H_BB)⁻¹ (Cook & Weisberg, *Residuals and
+//! Influence in Regression*, 1982).
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::reconstruct::refined::{Fitted, Linearised, linearised};
-use crate::scene::Noise;
+use crate::reconstruct::refined::{Fitted, linearised};
 
 /// Blocks that a flight is cut into.
 const BLOCKS: usize = 3;
-/// What the others predict to no better than a thousand times the noise, they don't predict.
-const UNPREDICTED: f64 = 1e-6;
+/// The least precision, 1/σ², of a prediction: what is foretold to no better than some four times the
+/// noise is judged by the rounding of the fit and the bend of the model, not by the effect.
+const PREDICTED: f64 = 0.05;
 
-/// A fitted model as its tangent.
-struct Tangent {
-    linearised: Linearised,
-    inverse: DMatrix<f64>,
-    /// Rows of each block.
-    blocks: Vec<Vec<Row>>,
+/// What a fitted model predicts of each block from the poses outside it.
+#[derive(Debug, Clone)]
+pub(crate) struct HeldOut {
+    blocks: Vec<Block>,
 }
 
+#[derive(Debug, Clone)]
+struct Block {
+    rows: Vec<Row>,
+    /// Along what is predicted, with the precision of each direction.
+    directions: Vec<(f64, DVector<f64>)>,
+    /// By how much each number is missed, over its noise.
+    missed: DVector<f64>,
+}
+
+#[derive(Debug, Clone, Copy)]
 struct Row {
     index: usize,
     is_position: bool,
@@ -29,87 +38,85 @@ struct Row {
     std: f64,
 }
 
-/// How well poses are predicted from those outside their block.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct HeldOut {
-    /// Root mean square of the positions, m.
-    pub(crate) position_rmse_m: f64,
-    /// Root mean square of the orientations' components, rad; 0 without any.
-    orientation_rmse_rad: f64,
-    positions: f64,
-    turns: f64,
+/// [`HeldOut::position_rmse_m`] of a fitted model by itself.
+pub(crate) fn held_out_rmse_m(fitted: &Fitted) -> Option<f64> {
+    HeldOut::of(fitted, fitted.collision_time_s()).map(|held_out| held_out.position_rmse_m())
 }
 
 impl HeldOut {
-    /// Root mean square of all, in deviations of this noise.
-    pub(crate) fn in_sigma(&self, noise: Noise) -> f64 {
-        let squares = self.positions * (self.position_rmse_m / noise.position).powi(2)
-            + self.turns * (self.orientation_rmse_rad / noise.orientation).powi(2);
-        (squares / (self.positions + self.turns)).sqrt()
-    }
-}
-
-/// The prediction of a fitted model.
-pub(crate) fn held_out(fitted: &Fitted) -> Option<HeldOut> {
-    Tangent::of(fitted).map(|tangent| tangent.held_out())
-}
-
-impl Tangent {
-    fn of(fitted: &Fitted) -> Option<Tangent> {
+    /// The predictions of `fitted` for blocks of flights that meet at `collision_time_s`; `None` where
+    /// it can't be linearised.
+    pub(crate) fn of(fitted: &Fitted, collision_time_s: f64) -> Option<HeldOut> {
         let best = fitted.best();
-        let linearised = linearised(&fitted.refined, &best.solution.unknowns, best.gap).ok()?;
-        let inverse = best.covariance.matrix.clone();
-        Some(Tangent { linearised, inverse, blocks: blocks(fitted) })
+        let tangent = linearised(&fitted.refined, &best.solution.unknowns, best.gap).ok()?;
+        let predicted = |rows: Vec<Row>| {
+            let indices: Vec<usize> = rows.iter().map(|row| row.index).collect();
+            let jacobian = tangent.jacobian.select_rows(&indices);
+            let residuals = tangent.residuals.select_rows(&indices);
+            let hat = &jacobian * &best.covariance.matrix * jacobian.transpose();
+            let size = rows.len();
+            let rest = DMatrix::identity(size, size) - 0.5 * (&hat + hat.transpose());
+            let directions = directions(&rest);
+            let along = |(precision, direction): &(f64, DVector<f64>)| {
+                direction * (direction.dot(&residuals) / precision)
+            };
+            let missed =
+                directions.iter().map(along).fold(DVector::zeros(size), |sum, one| sum + one);
+            Block { rows, directions, missed }
+        };
+        let blocks = blocks(fitted, collision_time_s).into_iter().map(predicted).collect();
+        Some(HeldOut { blocks })
     }
 
-    fn held_out(&self) -> HeldOut {
-        // Count and sum of squares.
-        let (mut positions, mut turns) = ((0.0, 0.0), (0.0, 0.0));
+    /// Root mean square of the positions' misses in m, weighted by how surely each is predicted.
+    pub(crate) fn position_rmse_m(&self) -> f64 {
+        let (mut weights, mut squares_m2) = (0.0, 0.0);
         for block in &self.blocks {
-            let rows: Vec<usize> = block.iter().map(|row| row.index).collect();
-            let jacobian = self.linearised.jacobian.select_rows(&rows);
-            let residuals = DVector::from_iterator(
-                rows.len(),
-                rows.iter().map(|&row| self.linearised.residuals[row]),
-            );
-            let predicted = predicted(&jacobian, &self.inverse, &residuals);
-            for (row, residual) in block.iter().zip(predicted.iter()) {
-                let channel = if row.is_position { &mut positions } else { &mut turns };
-                channel.0 += 1.0;
-                channel.1 += (row.std * residual).powi(2);
+            for (place, row) in block.rows.iter().enumerate().filter(|(_, row)| row.is_position) {
+                let part = |(precision, direction): &(f64, DVector<f64>)| {
+                    precision * direction[place].powi(2)
+                };
+                let weight: f64 = block.directions.iter().map(part).sum();
+                weights += weight;
+                squares_m2 += weight * (row.std * block.missed[place]).powi(2);
             }
         }
-        let rmse = |(count, squares): (f64, f64)| (squares / f64::max(count, 1.0)).sqrt();
-        HeldOut {
-            position_rmse_m: rmse(positions),
-            orientation_rmse_rad: rmse(turns),
-            positions: positions.0,
-            turns: turns.0,
-        }
+        (squares_m2 / f64::max(weights, f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// By how much the square of what it misses is less than that of a `smaller` model, along the
+    /// directions that it predicts, in units of how surely: what a model can't know of a block it
+    /// isn't blamed for.
+    pub(crate) fn gain_on(&self, smaller: &HeldOut) -> f64 {
+        let pairs = self.blocks.iter().zip(&smaller.blocks);
+        let gain = |(own, other): (&Block, &Block)| {
+            let scales = own.rows.iter().zip(&other.rows).map(|(own, other)| other.std / own.std);
+            let scales = DVector::from_iterator(own.rows.len(), scales);
+            let missed = other.missed.component_mul(&scales);
+            let of = |(precision, direction): &(f64, DVector<f64>)| {
+                let [before, after] = [&missed, &own.missed].map(|m| direction.dot(m).powi(2));
+                precision * (before - after)
+            };
+            own.directions.iter().map(of).sum::<f64>()
+        };
+        pairs.map(gain).sum()
     }
 }
 
-/// (1 − H)⁻¹ r; along what only the block itself tells there is no prediction, and no error.
-fn predicted(jacobian: &DMatrix<f64>, inverse: &DMatrix<f64>, r: &DVector<f64>) -> DVector<f64> {
-    let hat = jacobian * inverse * jacobian.transpose();
-    let rest = DMatrix::identity(r.len(), r.len()) - 0.5 * (&hat + hat.transpose());
-    let eigen = rest.symmetric_eigen();
-    let mut predicted = DVector::zeros(r.len());
-    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-        if *value > UNPREDICTED {
-            predicted += vector * (vector.dot(r) / value);
-        }
-    }
-    predicted
+/// The directions of a block that are predicted well, each with its precision 1/σ².
+fn directions(precision: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
+    let eigen = precision.clone().symmetric_eigen();
+    let all = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
+    let predicted = all.filter(|(value, _)| **value > PREDICTED);
+    predicted.map(|(value, direction)| (*value, direction.into_owned())).collect()
 }
 
 /// Each flight of each body, cut into blocks of neighbours.
-fn blocks(fitted: &Fitted) -> Vec<Vec<Row>> {
-    let time_s = fitted.best().solution.unknowns.collision_time_s;
+fn blocks(fitted: &Fitted, collision_time_s: f64) -> Vec<Vec<Row>> {
     let mut blocks = Vec::new();
     let mut index = 0;
     for body in &fitted.refined.bodies {
-        let split = body.poses.partition_point(|pose| pose.time_s < time_s);
+        let split = body.poses.partition_point(|pose| pose.time_s < collision_time_s);
         for flight in [&body.poses[..split], &body.poses[split..]] {
             let size = flight.len().div_ceil(BLOCKS).max(1);
             for poses in flight.chunks(size) {

@@ -10,10 +10,13 @@ mod advice;
 mod candidates;
 mod diagnosis;
 mod evidence;
+mod forms;
 mod goodness;
 mod held_out;
+mod leftover;
 mod pooled;
 mod ranking;
+mod rivals;
 mod throws;
 mod unexplained;
 mod verdict;
@@ -22,15 +25,18 @@ mod words;
 pub use diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
 };
+pub use rivals::OtherLaw;
 pub use throws::diagnose_throws;
 pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use candidates::{Candidate, all_candidates};
 pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
-pub(crate) use held_out::held_out;
+pub(crate) use held_out::{HeldOut, held_out_rmse_m};
+pub(crate) use leftover::Leftover;
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
-pub(crate) use ranking::look_alikes;
+pub(crate) use ranking::{TELLS_APART, look_alikes};
+pub(crate) use rivals::rivals;
 pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 
 use rayon::prelude::*;
@@ -69,7 +75,7 @@ pub fn diagnose(
 
 /// All candidates that can be fitted, the best explanation first.
 pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Vec<Candidate> {
-    let before = held_out::held_out(fitted);
+    let before = HeldOut::of(fitted, fitted.collision_time_s());
     // A score test that fails leaves all to be refitted.
     let promising =
         candidates::promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
@@ -77,7 +83,7 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
         .par_iter()
         .filter_map(|instance| {
             let with = fitted.with_quickly(scene, instance).ok()?;
-            candidates::candidate(scene, fitted, with, instances.len(), before)
+            candidates::candidate(scene, fitted, with, instances.len(), before.as_ref())
         })
         .collect();
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));

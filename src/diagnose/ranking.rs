@@ -1,17 +1,19 @@
 //! Probabilities of the candidates, and which of them can't be told apart.
 
-use super::Candidate;
+use super::{Candidate, OtherLaw};
 
-/// Odds of twenty to one and more tell two candidates apart (Kass & Raftery, *Bayes Factors*, 1995).
-const TELLS_APART: f64 = 6.0;
+/// Odds of a hundred and fifty to one and more tell two candidates apart, very strong evidence (Kass &
+/// Raftery, *Bayes Factors*, 1995): the best of some twenty is there by luck, too.
+pub(crate) const TELLS_APART: f64 = 10.0;
 
 /// The probability of each candidate, and that of none, by Schwarz's criterion and equal odds
-/// beforehand.
-pub(super) fn probabilities(candidates: &[Candidate]) -> (Vec<f64>, f64) {
-    let least = candidates.iter().map(|c| c.bic).fold(0.0, f64::min);
+/// beforehand, also of `other_laws`.
+pub(super) fn probabilities(candidates: &[Candidate], other_laws: &[OtherLaw]) -> (Vec<f64>, f64) {
+    let all = candidates.iter().map(|one| one.bic).chain(other_laws.iter().map(|law| law.bic));
+    let least = all.clone().fold(0.0, f64::min);
     let weight = |bic: f64| (-0.5 * (bic - least)).exp();
     let none = weight(0.0);
-    let total: f64 = none + candidates.iter().map(|c| weight(c.bic)).sum::<f64>();
+    let total: f64 = none + all.map(weight).sum::<f64>();
     (candidates.iter().map(|c| weight(c.bic) / total).collect(), none / total)
 }
 

@@ -8,6 +8,7 @@ use super::diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, ThrowEstimate, Verdict,
 };
 use super::pooled::{Own, PooledCandidate, Throw, pooled};
+use super::ranking::TELLS_APART;
 use super::words::{explanation_of_throws, listed};
 use super::{Goodness, all_candidates, reported};
 use crate::compare::{ChannelTest, channels};
@@ -16,8 +17,6 @@ use crate::reconstruct::refined::{self, Instance};
 use crate::reconstruct::{Number, ParameterEstimate, RefinedOptions};
 use crate::{Error, ErrorKind, Result, Scene};
 
-/// Odds of twenty to one and more tell two candidates apart.
-const TELLS_APART: f64 = 6.0;
 /// Candidates that are told even if they don't stand out.
 const FEWEST_TOLD: usize = 5;
 /// Of so many throws one may fail by chance, or by a fault of its own.
@@ -70,6 +69,7 @@ pub fn diagnose_throws(
         probability_of_nothing: weight(0.0) / total,
         stays_structured: false,
         unexplained: Vec::new(),
+        other_laws: Vec::new(),
         explanation: String::new(),
         advice: Vec::new(),
     };
@@ -104,7 +104,7 @@ pub(crate) fn looks(throws: &[Throw]) -> Result<(Vec<ChannelTest>, bool)> {
     let mut structured = 0;
     for throw in throws {
         let own = channels(throw.scene, &reported(throw.scene, &throw.fitted)?)?;
-        structured += usize::from(Goodness::of(&throw.fitted, &own).is_structured);
+        structured += usize::from(Goodness::by(&throw.fitted, &own).is_structured);
         all.extend(own);
     }
     Ok((all, structured * MANY > throws.len()))

@@ -1,15 +1,19 @@
-//! What no effect explains, described: a free force and a free torque on each body, fitted as smooth
-//! functions of time on either side of the collision, and what they go with.
+//! What a model leaves unexplained: a free force and a free torque on each body, any polynomials in
+//! time on either side of the collision, and which simple law they look like.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bridge::refined::ffi::fly;
-use crate::effect::Effect;
-use crate::reconstruct::refined::{Fitted, possible};
-use crate::reconstruct::solver_error;
+use super::evidence::by_chance;
+use super::forms::{LawForm, forms, free};
+use crate::reconstruct::refined::{Fitted, Gain, Instance, gains, possible};
 use crate::{Result, Scene};
+
+/// Degrees of the polynomials that are tried.
+const DEGREES: [usize; 2] = [0, 1];
+/// Forms that are told.
+const MOST_FORMS: usize = 4;
 
 /// An acceleration or a torque that the model lacks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,7 +28,7 @@ pub struct Unexplained {
     pub rms: f64,
     /// Its mean over the poses, in the world.
     pub mean: [f64; 3],
-    /// How much of its square each simple form explains, the most first.
+    /// Simple laws that it looks like, the likeliest first.
     pub forms: Vec<Form>,
 }
 
@@ -45,226 +49,92 @@ pub struct Form {
     pub goes_with: String,
     /// As a line of an effect file's `[law]`.
     pub law: String,
-    /// The share of the square that it explains, 0 to 1.
+    /// How much of the fall of χ² this law alone brings, 0 to 1.
     pub share: f64,
-    /// Its factor, in SI units.
-    pub factor: f64,
 }
 
-const FREE_ACCELERATION: &str = r#"
-name = "free_acceleration"
-title = "Any smooth acceleration on either side of the collision"
-scope = "body"
-[parameters.b0]
-unit = "m/s^2"
-null = [0.0, 0.0, 0.0]
-[parameters.b1]
-unit = "m/s^3"
-null = [0.0, 0.0, 0.0]
-[parameters.c0]
-unit = "m/s^2"
-null = [0.0, 0.0, 0.0]
-[parameters.c1]
-unit = "m/s^3"
-null = [0.0, 0.0, 0.0]
-[law]
-acceleration = "step(t_c - t) * (b0 + (t - t_c) * b1) + step(t - t_c) * (c0 + (t - t_c) * c1)"
-"#;
+/// A free force or torque that was tried.
+struct Tried {
+    kind: Kind,
+    degree: usize,
+    instance: Instance,
+}
 
-const FREE_TORQUE: &str = r#"
-name = "free_torque"
-title = "Any smooth torque on either side of the collision"
-scope = "body"
-[parameters.b0]
-unit = "m^2/s^2"
-null = [0.0, 0.0, 0.0]
-[parameters.c0]
-unit = "m^2/s^2"
-null = [0.0, 0.0, 0.0]
-[law]
-torque = "step(t_c - t) * b0 + step(t - t_c) * c0"
-"#;
-
-/// What acts on the bodies of `fitted` beyond its model, the strongest first; only what stands out of
-/// the noise.
-pub(super) fn unexplained(scene: &Scene, fitted: &Fitted) -> Result<Vec<Unexplained>> {
-    let mut all = Vec::new();
-    for (kind, text) in [(Kind::Acceleration, FREE_ACCELERATION), (Kind::Torque, FREE_TORQUE)] {
-        let effect = Effect::parse(text, "free")?;
-        for instance in possible(scene, &effect) {
-            let Ok(with) = fitted.with_quickly(scene, &instance) else { continue };
-            let Some(evidence) = super::evidence(fitted, &with, 1, 4) else { continue };
-            if evidence.p_value > super::FALSE_ALARM {
-                continue;
-            }
-            let body = instance.body.unwrap_or(0);
-            let samples = samples(&with, body, kind)?;
-            all.push(described(scene, body, kind, evidence.delta_chi2, &samples));
+/// What acts on the bodies of `fitted` beyond its model, the clearest first; only what stands out of
+/// the noise. All is told from the slopes of the poses: what is left over is small.
+pub(crate) fn unexplained(scene: &Scene, fitted: &Fitted) -> Result<Vec<Unexplained>> {
+    let mut all: Vec<Tried> = Vec::new();
+    for kind in [Kind::Acceleration, Kind::Torque] {
+        for degree in DEGREES {
+            let instances = possible(scene, &free(kind, degree)).into_iter();
+            all.extend(instances.map(|instance| Tried { kind, degree, instance }));
         }
     }
-    all.sort_by(|a, b| b.delta_chi2.total_cmp(&a.delta_chi2));
-    Ok(all)
-}
-
-/// What acts at a pose, and how the body moves there.
-struct Sample {
-    value: Vector3<f64>,
-    since_s: f64,
-    position: Vector3<f64>,
-    velocity: Vector3<f64>,
-    spin: Vector3<f64>,
-}
-
-fn samples(with: &Fitted, body: usize, kind: Kind) -> Result<Vec<Sample>> {
-    let unknowns = &with.best().solution.unknowns;
-    let first = with.acting.last().map_or(0, |acting| acting.first);
-    let vector = |index: usize| {
-        let place = first + 3 * index;
-        Vector3::from_row_slice(&unknowns.parameters[place..place + 3])
-    };
-    let stamps: Vec<f64> = with.refined.bodies[body].poses.iter().map(|p| p.time_s).collect();
-    let states = fly(&with.refined, unknowns, body, &stamps).map_err(solver_error)?;
-    Ok(stamps
+    let laws: Vec<(&LawForm, Instance)> = forms()
         .iter()
-        .zip(&states)
-        .map(|(stamp_s, state)| {
-            let since_s = stamp_s - unknowns.collision_time_s;
-            let value = match (kind, since_s < 0.0) {
-                (Kind::Acceleration, true) => vector(0) + since_s * vector(1),
-                (Kind::Acceleration, false) => vector(2) + since_s * vector(3),
-                (Kind::Torque, true) => vector(0),
-                (Kind::Torque, false) => vector(1),
-            };
-            Sample {
-                value,
-                since_s,
-                position: state.position.into(),
-                velocity: state.velocity.into(),
-                spin: state.spin.into(),
-            }
-        })
-        .collect())
+        .flat_map(|form| possible(scene, &form.effect).into_iter().map(move |one| (form, one)))
+        .collect();
+    let instances = all.iter().map(|one| &one.instance).chain(laws.iter().map(|(_, one)| one));
+    let tests: Vec<(Instance, Vec<f64>)> =
+        instances.map(|instance| (instance.clone(), instance.null())).collect();
+    let mut gains = gains(fitted, &tests)?;
+    let of_laws = gains.split_off(all.len());
+    let laws: Vec<(&LawForm, Instance, Gain)> =
+        laws.into_iter().zip(of_laws).map(|((form, one), gain)| (form, one, gain)).collect();
+    let mut found: Vec<(f64, &Tried, &Gain)> = Vec::new();
+    for (tried, gain) in all.iter().zip(&gains) {
+        let chance = by_chance(fitted, gain) * all.len() as f64;
+        let is_same =
+            |other: &Tried| other.kind == tried.kind && other.instance.body == tried.instance.body;
+        match found.iter_mut().find(|(_, other, _)| is_same(other)) {
+            Some(known) if known.0 > chance => *known = (chance, tried, gain),
+            Some(_) => {}
+            None => found.push((chance, tried, gain)),
+        }
+    }
+    found.retain(|(chance, _, _)| *chance < super::FALSE_ALARM);
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(found.iter().map(|(_, tried, gain)| described(scene, fitted, tried, gain, &laws)).collect())
 }
 
 fn described(
     scene: &Scene,
-    body: usize,
-    kind: Kind,
-    delta_chi2: f64,
-    samples: &[Sample],
+    fitted: &Fitted,
+    tried: &Tried,
+    gain: &Gain,
+    laws: &[(&LawForm, Instance, Gain)],
 ) -> Unexplained {
-    let count = samples.len() as f64;
-    let mean = samples.iter().map(|s| s.value).sum::<Vector3<f64>>() / count;
-    let square = samples.iter().map(|s| s.value.norm_squared()).sum::<f64>();
-    let up = scene.up_in_world().into_inner();
-    type Basis = fn(&Sample) -> Vector3<f64>;
-    let single: &[(&str, &str, Basis)] = match kind {
-        Kind::Acceleration => &[
-            ("the velocity", "acceleration = \"k * v\"", |s| s.velocity),
-            ("speed times velocity", "acceleration = \"k * norm(v) * v\"", |s| {
-                s.velocity.norm() * s.velocity
-            }),
-            ("spin × velocity", "acceleration = \"k * cross(L, v)\"", |s| {
-                s.spin.cross(&s.velocity)
-            }),
-        ],
-        Kind::Torque => &[("the spin", "torque = \"k * L\"", |s| s.spin)],
+    let body = tried.instance.body.unwrap_or(0);
+    let values = values(fitted, body, tried.degree, &gain.step);
+    let count = values.len() as f64;
+    let is_on = |instance: &Instance| instance.body.is_none_or(|on| on == body);
+    let mut alike: Vec<&(&LawForm, Instance, Gain)> =
+        laws.iter().filter(|(form, one, _)| form.kind == tried.kind && is_on(one)).collect();
+    let behind = |gain: &Gain| gain.directions as f64 * fitted.numbers().ln() - gain.chi2;
+    alike.sort_by(|a, b| behind(&a.2).total_cmp(&behind(&b.2)));
+    let form = |(form, _, own): &&(&LawForm, Instance, Gain)| Form {
+        goes_with: form.goes_with.to_string(),
+        law: form.line(),
+        share: (own.chi2 / gain.chi2).clamp(0.0, 1.0),
     };
-    let name = match kind {
-        Kind::Acceleration => "acceleration",
-        Kind::Torque => "torque",
-    };
-    let mut forms: Vec<Form> = single
-        .iter()
-        .map(|(goes_with, law, basis)| {
-            let top: f64 = samples.iter().map(|s| basis(s).dot(&s.value)).sum();
-            let bottom: f64 = samples.iter().map(|s| basis(s).norm_squared()).sum();
-            let factor = if bottom > 0.0 { top / bottom } else { 0.0 };
-            form(goes_with, law, factor * top / square, factor)
-        })
-        .collect();
-    forms.push(form(
-        "nothing: it is constant in the world",
-        &format!("{name} = \"a\""),
-        count * mean.norm_squared() / square,
-        mean.norm(),
-    ));
-    let upright = mean.dot(&up);
-    forms.push(form(
-        "nothing: it is constant along gravity",
-        &format!("{name} = \"k * up\""),
-        count * upright * upright / square,
-        upright,
-    ));
-    if kind == Kind::Acceleration {
-        let (share, factor) = spring(samples, square);
-        let law = "acceleration = \"-k * (p - anchor)\"";
-        forms.push(form("the position: like a spring to an anchor", law, share, factor));
-        let (share, factor) = steered(samples, square);
-        let law = "acceleration = \"cross(W, v)\"";
-        forms.push(form("a fixed axis × velocity: like Coriolis' force", law, share, factor));
-        let late: f64 = samples.iter().map(|s| s.since_s * s.value.dot(&mean)).sum();
-        let times: f64 = samples.iter().map(|s| s.since_s.powi(2)).sum();
-        let slope = late / (times * mean.norm_squared().max(f64::MIN_POSITIVE));
-        let law = "acceleration = \"(t - t_c) * a\"";
-        let share = slope * late / square;
-        forms.push(form("time: it grows along one direction", law, share, slope * mean.norm()));
-    }
-    forms.sort_by(|a, b| b.share.total_cmp(&a.share));
     Unexplained {
         body: scene.bodies()[body].name.clone(),
-        kind,
-        delta_chi2,
-        rms: (square / count).sqrt(),
-        mean: mean.into(),
-        forms,
+        kind: tried.kind,
+        delta_chi2: gain.chi2,
+        rms: (values.iter().map(Vector3::norm_squared).sum::<f64>() / count).sqrt(),
+        mean: (values.iter().sum::<Vector3<f64>>() / count).into(),
+        forms: alike.iter().take(MOST_FORMS).map(form).collect(),
     }
 }
 
-fn form(goes_with: &str, law: &str, share: f64, factor: f64) -> Form {
-    Form {
-        goes_with: goes_with.to_string(),
-        law: law.to_string(),
-        share: if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 },
-        factor,
-    }
-}
-
-/// −k (p − anchor): four numbers, linear in k and k · anchor.
-fn spring(samples: &[Sample], square: f64) -> (f64, f64) {
-    linear(samples, square, 4, |s, axis, row| {
-        row[0] = -s.position[axis];
-        row[1 + axis] = 1.0;
-    })
-}
-
-/// W × v: three numbers.
-fn steered(samples: &[Sample], square: f64) -> (f64, f64) {
-    linear(samples, square, 3, |s, axis, row| {
-        for turn in 0..3 {
-            row[turn] = Vector3::ith(turn, 1.0).cross(&s.velocity)[axis];
-        }
-    })
-}
-
-/// The share of the square that a law linear in `size` numbers explains, and the size of the first.
-fn linear(
-    samples: &[Sample],
-    square: f64,
-    size: usize,
-    fill: impl Fn(&Sample, usize, &mut [f64]),
-) -> (f64, f64) {
-    let mut rows = DMatrix::zeros(3 * samples.len(), size);
-    let mut values = DVector::zeros(3 * samples.len());
-    for (index, sample) in samples.iter().enumerate() {
-        for axis in 0..3 {
-            let mut row = vec![0.0; size];
-            fill(sample, axis, &mut row);
-            rows.row_mut(3 * index + axis).copy_from_slice(&row);
-            values[3 * index + axis] = sample.value[axis];
-        }
-    }
-    let Ok(solution) = rows.clone().svd(true, true).solve(&values, 1e-9) else { return (0.0, 0.0) };
-    let rest = (&values - rows * &solution).norm_squared();
-    (1.0 - rest / square, solution[0])
+/// The polynomials' values at a body's poses.
+fn values(fitted: &Fitted, body: usize, degree: usize, step: &[f64]) -> Vec<Vector3<f64>> {
+    let [before, after] = [0, 3 * (degree + 1)].map(|first| &step[first..first + 3 * (degree + 1)]);
+    let value = |since_s: f64| {
+        let side = if since_s < 0.0 { before } else { after };
+        let terms = side.chunks(3).enumerate();
+        terms.map(|(power, c)| Vector3::from_row_slice(c) * since_s.powi(power as i32)).sum()
+    };
+    let poses = fitted.refined.bodies[body].poses.iter();
+    poses.map(|pose| value(pose.time_s - fitted.collision_time_s())).collect()
 }

@@ -2,7 +2,9 @@
 
 use super::advice::advice;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
-use super::ranking::{look_alikes, probabilities};
+use super::leftover::Leftover;
+use super::ranking::{TELLS_APART, look_alikes, probabilities};
+use super::rivals::rivals;
 use super::unexplained::unexplained;
 use super::words::explanation;
 use super::{Candidate, Goodness, reported, tried};
@@ -27,35 +29,37 @@ pub(super) fn diagnosis(
 ) -> Result<Diagnosis> {
     let result = reported(scene, fitted)?;
     let channels = channels(scene, &result)?;
-    let goodness = Goodness::of(fitted, &channels);
-    let first = candidates.iter().position(Candidate::stands_out);
-    let rest = first.map(|first| rest(scene, &candidates[first])).transpose()?;
-    let second = match (first, &rest) {
-        // Where the noise isn't known, what is left says little of a second.
-        (Some(_), Some(rest)) if rest.is_structured && fitted.has_stated_noise() => {
-            second(scene, &candidates, &instances)
-        }
-        _ => None,
+    let before = Goodness::by(fitted, &channels);
+    let first = candidates.iter().find(|candidate| candidate.stands_out());
+    let rest = first.map(|first| Leftover::of(scene, &first.fitted)).transpose()?;
+    let stays_structured = rest.as_ref().is_some_and(Leftover::is_structured);
+    // Where the noise isn't known, what is left says little of a second.
+    let second = match stays_structured && fitted.has_stated_noise() {
+        true => second(scene, &candidates, &instances),
+        false => None,
     };
+    let mut other_laws = match first {
+        Some(_) => rivals(scene, fitted, instances.len())?,
+        None => Vec::new(),
+    };
+    let (odds, none) = probabilities(&candidates, &other_laws);
     let verdict = match (first, &rest) {
-        (None, _) if goodness.is_structured => Verdict::UnknownEffect,
-        (None, _) => Verdict::NothingMissing,
-        (Some(first), Some(rest))
-            if !explains(&candidates[first], &goodness, rest) && second.is_none() =>
-        {
-            Verdict::UnknownEffect
+        (Some(first), Some(rest)) => {
+            let bic = second.as_ref().map_or(first.bic, |(bic, _)| bic.min(first.bic));
+            let is_beaten = other_laws.iter().any(|law| law.bic < bic - TELLS_APART);
+            other_laws.retain(|law| law.bic < bic + TELLS_APART);
+            match is_beaten || (second.is_none() && !explains(first, &before, rest)) {
+                true => Verdict::UnknownEffect,
+                false => Verdict::Missing,
+            }
         }
-        _ => Verdict::Missing,
+        _ if before.is_structured => Verdict::UnknownEffect,
+        _ => Verdict::NothingMissing,
     };
-    // A force that is left on top of the best says more than χ² of all poses together.
-    let unexplained = match (verdict, first) {
-        (Verdict::NothingMissing, _) => Vec::new(),
-        (Verdict::UnknownEffect, _) | (_, None) => unexplained(scene, fitted)?,
-        (Verdict::Missing, Some(first)) => unexplained(scene, &candidates[first].fitted)?,
+    let unexplained = match (verdict, rest) {
+        (Verdict::UnknownEffect, _) => unexplained(scene, fitted)?,
+        (_, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
     };
-    let leaves_more = rest.is_some_and(|rest| rest.is_structured) || !unexplained.is_empty();
-    let stays_structured = first.is_some() && leaves_more && second.is_none();
-    let (odds, none) = probabilities(&candidates);
     // What doesn't predict better never comes first.
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     order.sort_by_key(|&index| !candidates[index].stands_out());
@@ -76,50 +80,53 @@ pub(super) fn diagnosis(
         probability_of_nothing: none,
         stays_structured,
         unexplained,
+        other_laws,
         explanation: String::new(),
         advice: Vec::new(),
     };
-    diagnosis.explanation = explanation(&diagnosis, second.as_deref(), stays_structured);
+    let pair = second.as_ref().map(|(_, labels)| labels.as_str());
+    diagnosis.explanation = explanation(&diagnosis, pair);
     diagnosis.advice = advice(scene, fitted, &diagnosis);
     Ok(diagnosis)
 }
 
-/// How good the fit is with a candidate.
-fn rest(scene: &Scene, candidate: &Candidate) -> Result<Goodness> {
-    let channels = match candidate.fitted.has_stated_noise() {
-        true => Vec::new(),
-        false => channels(scene, &reported(scene, &candidate.fitted)?)?,
-    };
-    Ok(Goodness::of(&candidate.fitted, &channels))
-}
-
 /// Whether a candidate explains most of what is missed; where the noise isn't stated, most of what
 /// unseen poses are missed by.
-fn explains(candidate: &Candidate, before: &Goodness, after: &Goodness) -> bool {
-    match (before.excess, after.excess, candidate.held_out) {
-        _ if !after.is_structured => true,
-        (Some(before), Some(after), _) => after < EXPLAINS * before,
-        (_, _, Some([before, after])) => {
-            after.position_rmse_m.powi(2) < EXPLAINS * before.position_rmse_m.powi(2)
+fn explains(candidate: &Candidate, before: &Goodness, rest: &Leftover) -> bool {
+    let free = rest.unexplained.first().map_or(0.0, |one| one.delta_chi2);
+    let gain = candidate.evidence.delta_chi2;
+    let of_force = gain > EXPLAINS * (gain + free);
+    let after = rest.goodness;
+    of_force
+        && match (before.excess, after.excess, &candidate.held_out) {
+            _ if !after.is_structured => true,
+            (Some(before), Some(after), _) => after < EXPLAINS * before,
+            (_, _, Some((before, after))) => {
+                after.position_rmse_m().powi(2) < EXPLAINS * before.position_rmse_m().powi(2)
+            }
+            _ => false,
         }
-        _ => false,
-    }
 }
 
-/// The label of an effect that, with one of the best candidates, explains what that leaves.
-fn second(scene: &Scene, candidates: &[Candidate], instances: &[Instance]) -> Option<String> {
+/// Two effects, one of the best candidates and another, that together explain the poses to their
+/// noise: their criterion and labels.
+fn second(
+    scene: &Scene,
+    candidates: &[Candidate],
+    instances: &[Instance],
+) -> Option<(f64, String)> {
     let firsts = candidates.iter().filter(|candidate| candidate.stands_out()).take(FIRSTS);
     let mut pairs: Vec<(f64, String, bool)> = Vec::new();
     for first in firsts {
         let seconds = tried(scene, &first.fitted, instances);
         let Some(second) = seconds.iter().find(|second| second.stands_out()) else { continue };
-        let explains = rest(scene, second).is_ok_and(|rest| !rest.is_structured);
+        let explains = Leftover::of(scene, &second.fitted).is_ok_and(|rest| !rest.is_structured());
         let label =
             format!("{} and {}", first.instance().label(scene), second.instance().label(scene));
         pairs.push((first.bic + second.bic, label, explains));
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    pairs.into_iter().find(|(_, _, explains)| *explains).map(|(_, label, _)| label)
+    pairs.into_iter().find(|(_, _, explains)| *explains).map(|(bic, label, _)| (bic, label))
 }
 
 fn report(
@@ -143,8 +150,11 @@ fn report(
         p_value: candidate.evidence.p_value,
         probability,
         stands_out: candidate.stands_out(),
-        heldout_rmse_before: candidate.held_out.map(|[before, _]| before.position_rmse_m),
-        heldout_rmse_after: candidate.held_out.map(|[_, after]| after.position_rmse_m),
+        heldout_rmse_before: candidate
+            .held_out
+            .as_ref()
+            .map(|(before, _)| before.position_rmse_m()),
+        heldout_rmse_after: candidate.held_out.as_ref().map(|(_, after)| after.position_rmse_m()),
         reduced_chi2: after.fit.reduced_chi2,
         parameters: effect.map(|effect| effect.parameters).unwrap_or_default(),
         indistinguishable_from: alike

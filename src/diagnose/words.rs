@@ -2,30 +2,25 @@
 
 use super::FALSE_ALARM;
 use super::diagnosis::{CandidateReport, Diagnosis, Verdict};
+use super::rivals::OtherLaw;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
 use crate::words::{counted, significant};
 
-/// What `diagnosis` says. `pair`: two effects that explain together what one doesn't;
-/// `stays_structured`: whether even the best leaves more than noise.
-pub(super) fn explanation(
-    diagnosis: &Diagnosis,
-    pair: Option<&str>,
-    stays_structured: bool,
-) -> String {
+/// What `diagnosis` says. `pair`: two effects that explain together what one doesn't.
+pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
     let model = if diagnosis.model.is_empty() { "The base model" } else { "The model" };
+    let left: String = diagnosis.unexplained.iter().map(leftover).collect();
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::NothingMissing, best) => nothing(model, diagnosis, best),
         (Verdict::UnknownEffect, best) => {
-            let left: String = diagnosis.unexplained.iter().map(leftover).collect();
-            unknown(model, best.filter(|best| best.stands_out)) + &left
+            let best = best.filter(|best| best.stands_out);
+            unknown(model, best, diagnosis.other_laws.first()) + &left
         }
         (Verdict::Missing, Some(best)) => {
-            let left: String = match stays_structured {
-                true => diagnosis.unexplained.iter().map(leftover).collect(),
-                false => String::new(),
-            };
-            missing(best, pair, stays_structured) + &left
+            missing(best, pair, diagnosis.stays_structured)
+                + &left
+                + &diagnosis.other_laws.first().map_or(String::new(), or_another)
         }
         (Verdict::Missing, None) => String::new(),
     }
@@ -91,17 +86,36 @@ fn closest(best: &CandidateReport) -> String {
     )
 }
 
-fn unknown(model: &str, best: Option<&CandidateReport>) -> String {
-    let tried = match best {
-        Some(best) => format!(
+fn unknown(model: &str, best: Option<&CandidateReport>, law: Option<&OtherLaw>) -> String {
+    let tried = match (best, law) {
+        (Some(best), Some(law)) => format!(
+            " The best candidate, {}, helps (χ² falls by {}), but a law that the catalogue hasn't \
+             got explains it better (by {}): {}.",
+            best.label(),
+            significant(best.delta_chi2, 3),
+            significant(law.delta_chi2, 3),
+            other(law)
+        ),
+        (Some(best), None) => format!(
             " The best candidate, {}, helps (χ² falls by {}), but leaves too much: don't take it for \
              the cause.",
             best.label(),
             significant(best.delta_chi2, 3)
         ),
-        None => " No effect of the catalogue explains it.".to_string(),
+        (None, _) => " No effect of the catalogue explains it.".to_string(),
     };
     format!("{model} misses the poses by more than their noise.{tried}")
+}
+
+/// A law that the catalogue hasn't got, with the line to try.
+fn other(law: &OtherLaw) -> String {
+    let body = law.body.as_ref().map_or("all bodies".to_string(), String::clone);
+    format!("on {body}, one that goes with {}; try {}", law.goes_with, law.law)
+}
+
+/// What is as good as what is named.
+fn or_another(law: &OtherLaw) -> String {
+    format!(" These poses can't tell it from a law that the catalogue hasn't got: {}.", other(law))
 }
 
 /// What is left over, in a sentence.
@@ -155,16 +169,16 @@ fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -
         text +=
             &format!(" These poses can't tell it from {}.", listed(&best.indistinguishable_from));
     }
-    match (pair, stays_structured) {
-        (Some(pair), _) => {
-            text += &format!(" It isn't alone: {pair} together explain the poses to their noise.");
-        }
-        (None, true) => {
-            text += " But the residuals stay structured: it may be only the nearest that the \
-                     catalogue has, or one of several that are missing.";
-        }
-        (None, false) => {}
-    }
+    text += &match (pair, stays_structured) {
+        (Some(pair), true) => format!(
+            " It isn't alone: the residuals stay structured with it, while {pair} together explain the \
+             poses to their noise; or a law does that the catalogue hasn't got."
+        ),
+        (None, true) => " But the residuals stay structured: it may be only the nearest that the \
+                         catalogue has, or one of several that are missing."
+            .to_string(),
+        (_, false) => String::new(),
+    };
     text
 }
 

@@ -7,7 +7,7 @@ mod throws;
 pub use ladder::{IMPROVEMENT_SCHEMA, Improvement, Rung};
 pub use throws::improve_throws;
 
-use crate::diagnose::{Verdict, held_out, reported};
+use crate::diagnose::{Verdict, held_out_rmse_m, reported};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
 use crate::reconstruct::refined::{self, Fitted};
@@ -67,7 +67,7 @@ fn rung(scene: &Scene, added: Option<String>, fitted: &Fitted) -> Result<Rung> {
         position_rmse: result.fit.position_rmse,
         orientation_rmse: result.fit.orientation_rmse,
         reduced_chi2: result.fit.reduced_chi2,
-        heldout_position_rmse: held_out(fitted).map(|held_out| held_out.position_rmse_m),
+        heldout_position_rmse: held_out_rmse_m(fitted),
         mass_ratio: result.mass_ratio.and_then(|estimate| estimate.value),
         restitution: result.restitution.value,
     })

@@ -2,9 +2,9 @@
 //! single effect of two is often neither (a further impact imitates much), and what became
 //! superfluous is dropped at the end.
 
-use crate::compare::channels;
 use crate::diagnose::{
-    Candidate, FALSE_ALARM, Goodness, all_candidates, evidence, reported, tried,
+    Candidate, FALSE_ALARM, Goodness, Leftover, TELLS_APART, all_candidates, evidence, rivals,
+    tried,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{Fitted, Instance};
@@ -61,13 +61,16 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
         }
         best = first.clone();
         // Once one is down to the noise, only it climbs on.
-        if !is_structured(scene, &best.fitted)? {
+        if !Goodness::of(scene, &best.fitted)?.is_structured {
             next.truncate(1);
         }
         climbing = next;
     }
     let (best, dropped) = without_superfluous(scene, base, best)?;
-    let is_structured = is_structured(scene, &best.fitted)?;
+    let is_structured = match best.steps.is_empty() {
+        true => Goodness::of(scene, base)?.is_structured,
+        false => is_left_over(scene, base, &best)?,
+    };
     Ok(Found { steps: best.steps, dropped, is_structured })
 }
 
@@ -90,13 +93,14 @@ impl Hypothesis {
     }
 }
 
-/// Whether a fit leaves more than noise.
-fn is_structured(scene: &Scene, fitted: &Fitted) -> Result<bool> {
-    let channels = match fitted.has_stated_noise() {
-        true => Vec::new(),
-        false => channels(scene, &reported(scene, fitted)?)?,
-    };
-    Ok(Goodness::of(fitted, &channels).is_structured)
+/// Whether the effects of `best` leave more than noise, or one law that the catalogue hasn't got
+/// explains more than all of them.
+fn is_left_over(scene: &Scene, base: &Fitted, best: &Hypothesis) -> Result<bool> {
+    if Leftover::of(scene, &best.fitted)?.is_structured() {
+        return Ok(true);
+    }
+    let tried = all_candidates(scene, base, &[])?.len();
+    Ok(rivals(scene, base, tried)?.iter().any(|law| law.bic < best.bic - TELLS_APART))
 }
 
 /// Leaves out each effect that the others explain by now, the earliest first.

@@ -2,7 +2,7 @@
 //! that all of them together say.
 
 use super::{Improvement, Rung};
-use crate::diagnose::{PooledCandidate, Throw, Verdict, held_out, instances, looks, pooled};
+use crate::diagnose::{PooledCandidate, Throw, Verdict, held_out_rmse_m, instances, looks, pooled};
 use crate::diagnose::{reduced_chi2, reported, throws};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
@@ -93,10 +93,7 @@ fn rung(
         position_rmse: position.unwrap_or(0.0),
         orientation_rmse: rms(results.iter().map(|r| r.fit.orientation_rmse).collect()),
         reduced_chi2: reduced_chi2(throws),
-        heldout_position_rmse: rms(throws
-            .iter()
-            .map(|t| held_out(&t.fitted).map(|h| h.position_rmse_m))
-            .collect()),
+        heldout_position_rmse: rms(throws.iter().map(|t| held_out_rmse_m(&t.fitted)).collect()),
         mass_ratio: None,
         restitution: None,
     })

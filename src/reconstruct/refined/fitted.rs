@@ -152,6 +152,10 @@ impl Fitted {
         &self.optima[0]
     }
 
+    pub(crate) fn collision_time_s(&self) -> f64 {
+        self.best().solution.unknowns.collision_time_s
+    }
+
     /// Where the tangents of an effect's free parameters stand among the unknowns'.
     pub(crate) fn columns(&self, acting: &Acting) -> Range<usize> {
         let free = |range: Range<usize>| {

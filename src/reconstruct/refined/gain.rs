@@ -10,6 +10,9 @@ use crate::bridge::refined::ffi::{RefinedBody, RefinedPose, RefinedScene, Refine
 use crate::effect::Scan;
 use crate::scene::Gap;
 
+/// Of the largest eigenvalue: the square of a column's share of a millionth.
+const ROUNDING: f64 = 1e-12;
+
 /// A model as its tangent: residuals over their deviations, and their derivatives by the unknowns;
 /// the tilt's prior is two more rows.
 pub(crate) struct Linearised {
@@ -66,9 +69,18 @@ pub(super) fn gains_without(fitted: &Fitted) -> Result<Vec<Vec<(f64, f64)>>> {
     Ok(bodies.map(|body| body.poses.iter().map(|pose| gain(body, pose)).collect()).collect())
 }
 
-/// By how much χ² would fall with each of `candidates`, whose scalars are given, all else refitted;
-/// exact where the model is linear.
-pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Result<Vec<f64>> {
+/// What a model would gain by an effect; exact where it is linear.
+pub(crate) struct Gain {
+    /// By how much χ² would fall, all else refitted.
+    pub(crate) chi2: f64,
+    /// Directions of the effect's free scalars that the data depend on.
+    pub(crate) directions: usize,
+    /// How far the free scalars would move.
+    pub(crate) step: Vec<f64>,
+}
+
+/// The gain of `fitted` by each of `candidates`, whose scalars are given.
+pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Result<Vec<Gain>> {
     let mut refined = fitted.refined.clone();
     let best = fitted.best();
     let mut unknowns = best.solution.unknowns.clone();
@@ -91,10 +103,24 @@ pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Res
     let basis = orthonormal(known.into_owned());
     let apart = |m: &DMatrix<f64>| m - &basis * (basis.tr_mul(m));
     let residuals = &tangent.residuals - &basis * basis.tr_mul(&tangent.residuals);
-    let added = apart(&added.into_owned());
+    let added = added.into_owned();
+    let mut rest = apart(&added);
+    for (mut rest, column) in rest.column_iter_mut().zip(added.column_iter()) {
+        if rest.norm() < ROUNDING.sqrt() * column.norm() {
+            rest.fill(0.0);
+        }
+    }
     let gain = |range: std::ops::Range<usize>| {
-        let part = added.columns(range.start - base, range.len()).into_owned();
-        orthonormal(part).tr_mul(&residuals).norm_squared()
+        let part = rest.columns(range.start - base, range.len()).into_owned();
+        let basis = orthonormal(part.clone());
+        let along = basis.tr_mul(&residuals);
+        let inverse = match basis.is_empty() {
+            true => None,
+            false => basis.tr_mul(&part).pseudo_inverse(ROUNDING.sqrt()).ok(),
+        };
+        let step =
+            inverse.map_or(vec![0.0; range.len()], |inverse| (-inverse * &along).data.into());
+        Gain { chi2: along.norm_squared(), directions: basis.ncols(), step }
     };
     Ok(columns.into_iter().map(gain).collect())
 }
@@ -117,8 +143,6 @@ pub(crate) fn information_of_last(fitted: &Fitted) -> Result<DMatrix<f64>> {
 /// An orthonormal basis of the columns' span; directions that are rounding are left out. By the
 /// eigenvectors of the Gram matrix, twice: the second time makes up for the rounding of the first.
 pub(super) fn orthonormal(mut columns: DMatrix<f64>) -> DMatrix<f64> {
-    /// Of the largest eigenvalue: the square of a column's share of a millionth.
-    const ROUNDING: f64 = 1e-12;
     for mut column in columns.column_iter_mut() {
         let length = column.norm();
         if length > 0.0 {

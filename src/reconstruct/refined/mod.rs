@@ -12,6 +12,7 @@ mod alternatives;
 mod covariance;
 mod fitted;
 mod flown;
+mod freed;
 mod gain;
 mod layout;
 pub(crate) mod model;
@@ -35,7 +36,7 @@ mod uncertainty;
 pub(crate) use self::acting::{Acting, Instance, instances, possible};
 pub(crate) use self::fitted::Fitted;
 pub(crate) use self::flown::{FlownPose, flown};
-pub(crate) use self::gain::{Linearised, gains, information_of_last, linearised};
+pub(crate) use self::gain::{Gain, gains, information_of_last, linearised};
 pub(crate) use self::report::reconstruction as report;
 pub(crate) use self::starts::{points, scanned};
 

@@ -3,16 +3,17 @@
 
 use nalgebra::Vector3;
 
-use super::acting::{Acting, Instance, possible};
+use super::acting::{Acting, Instance};
 use super::fitted::Fitted;
+use super::freed::freed;
 use super::gain::{gains, gains_without, linearised};
 use super::model::{has_plane, refined_scene};
 use super::optimum::Optimum;
 use super::parabolas::Parabolas;
 use super::solve::solve;
-use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns, launch};
-use crate::effect::{Effect, Scan};
-use crate::reconstruct::{Loss, solver_error};
+use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
+use crate::effect::{Scan, Scope};
+use crate::reconstruct::Loss;
 use crate::scene::{Gap, StaticPlane};
 use crate::{Result, Scene};
 
@@ -56,8 +57,8 @@ pub(super) fn starts(
     match acting.instance.scan() {
         None => {
             starts.extend(beside_the_null(refined, acting, &starts[0])?);
-            if let Some(plane) = scene.plane().filter(|_| acting.instance.acts_at_the_contact()) {
-                starts.extend(freed(nested, scene, plane, refined, acting).unwrap_or_default());
+            if acting.instance.effect.scope == Scope::Contact && is_bent(nested, scene) {
+                starts.extend(freed(nested, scene, refined, acting).unwrap_or_default());
             }
         }
         Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)?),
@@ -74,6 +75,13 @@ pub(super) fn starts(
         }
     }
     Ok(starts)
+}
+
+/// Whether a fit may be bent so far that it is stuck: on a plane, where a body that rubs turns; between
+/// two bodies, where it misses the poses by far.
+fn is_bent(nested: &Fitted, scene: &Scene) -> bool {
+    const FAR: f64 = 2.0;
+    scene.plane().is_some() || !nested.has_stated_noise() || nested.chi2() > FAR * nested.numbers()
 }
 
 /// A value of a scanned parameter.
@@ -103,7 +111,8 @@ pub(crate) fn scanned(nested: &Fitted, scene: &Scene, instance: &Instance) -> Re
                 values[place] = *point;
                 (instance.clone(), values)
             };
-            gains(nested, &points.iter().map(at).collect::<Vec<_>>())?
+            let gains = gains(nested, &points.iter().map(at).collect::<Vec<_>>())?;
+            gains.into_iter().map(|gain| gain.chi2).collect()
         }
         Some((Scan::Frames, _)) | None => Vec::new(),
     };
@@ -136,7 +145,7 @@ pub(crate) fn points(scene: &Scene, instance: &Instance) -> Vec<f64> {
 
 /// Puts the contact point on the plane: along the base model's impulse it makes no difference where
 /// it is, but to friction it does.
-fn touch(unknowns: &mut RefinedUnknowns, plane: &StaticPlane) {
+pub(super) fn touch(unknowns: &mut RefinedUnknowns, plane: &StaticPlane) {
     let normal = plane.normal_in_world.into_inner();
     let point = Vector3::from(unknowns.contact_point);
     unknowns.contact_point = (point + (plane.height_m - normal.dot(&point)) * normal).into();
@@ -181,58 +190,6 @@ fn beside_the_null(
     Ok(starts)
 }
 
-/// Any jump in velocity and spin.
-const FREE_JUMP: &str = r#"
-name = "free_jump"
-title = "Any impulse at the collision"
-scope = "body"
-[parameters.P]
-unit = "m/s"
-null = [0.0, 0.0, 0.0]
-[parameters.S]
-unit = "m^2/s"
-null = [0.0, 0.0, 0.0]
-[law]
-impulse = "P"
-angular_impulse = "S"
-"#;
-/// Parts and multiples of the typical size that are tried with it.
-const SIZES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
-
-/// A strong impulse at the contact bends the model without it so far that rotations wrap: starts from
-/// a fit whose jump is free, with the contact point where that jump's line of action meets the plane,
-/// (x − p) × J = ΔL.
-fn freed(
-    nested: &Fitted,
-    scene: &Scene,
-    plane: &StaticPlane,
-    refined: &RefinedScene,
-    acting: &Acting,
-) -> Result<Vec<Start>> {
-    let jump = Effect::parse(FREE_JUMP, "free_jump")?;
-    let Some(instance) = possible(scene, &jump).into_iter().next() else { return Ok(Vec::new()) };
-    let free = nested.with_quickly(scene, &instance)?;
-    let best = free.best();
-    let launch = launch(&free.refined, &best.solution.unknowns).map_err(solver_error)?[0];
-    let mut unknowns = best.solution.unknowns.clone();
-    unknowns.parameters.truncate(acting.first);
-    unknowns.parameters.extend(acting.instance.null());
-    let motion = &unknowns.bodies[0];
-    let impulse = Vector3::from(launch.velocity_after) - Vector3::from(motion.velocity_before);
-    let spin = Vector3::from(launch.spin_after) - Vector3::from(motion.spin_before);
-    let normal = plane.normal_in_world.into_inner();
-    let on_line = Vector3::from(motion.position) + impulse.cross(&spin) / impulse.norm_squared();
-    let along = (plane.height_m - normal.dot(&on_line)) / normal.dot(&impulse);
-    let point = on_line + along * impulse;
-    if !point.iter().all(|x| x.is_finite()) {
-        return Ok(Vec::new());
-    }
-    unknowns.contact_point = point.into();
-    unknowns.impulse = (normal * normal.dot(&impulse)).into();
-    let at = |size: &f64| (away(refined, acting, &unknowns, *size), best.gap);
-    Ok(SIZES.iter().map(at).collect())
-}
-
 /// Whether nothing depends on one of the free parameters.
 fn is_flat(
     refined: &RefinedScene,
@@ -247,7 +204,7 @@ fn is_flat(
 }
 
 /// With the free parameters so many typical sizes from where they are.
-fn away(
+pub(super) fn away(
     refined: &RefinedScene,
     acting: &Acting,
     unknowns: &RefinedUnknowns,

@@ -1,0 +1,154 @@
+//! Simple forms of forces and torques: what a leftover may go with, and what a law that the catalogue
+//! hasn't got may look like.
+
+use std::sync::LazyLock;
+
+use super::unexplained::Kind;
+use crate::effect::Effect;
+
+/// A law of a simple form.
+pub(super) struct LawForm {
+    /// What it goes with, in words.
+    pub(super) goes_with: &'static str,
+    pub(super) kind: Kind,
+    /// The right side of its line in an effect file.
+    pub(super) law: &'static str,
+    /// Whether no effect of the catalogue is of this form.
+    pub(super) is_foreign: bool,
+    /// The same as an effect.
+    pub(super) effect: Effect,
+}
+
+impl LawForm {
+    /// Its line in an effect file's `[law]`.
+    pub(super) fn line(&self) -> String {
+        format!("{} = \"{}\"", hook(self.kind), self.law)
+    }
+}
+
+/// Words, kind, law, parameters with unit and number of components, whether it is foreign.
+type Row = (&'static str, Kind, &'static str, &'static [(&'static str, &'static str, usize)], bool);
+
+const ROWS: [Row; 13] = {
+    use Kind::{Acceleration, Torque};
+    [
+        ("the velocity", Acceleration, "k * v", &[("k", "1/s", 1)], false),
+        ("speed times velocity", Acceleration, "k * norm(v) * v", &[("k", "1/m", 1)], false),
+        ("spin × velocity", Acceleration, "k * cross(w, v)", &[("k", "1", 1)], false),
+        ("nothing: it is constant in the world", Acceleration, "a", &[("a", "m/s^2", 3)], false),
+        (
+            "nothing: it is constant along gravity",
+            Acceleration,
+            "k * up",
+            &[("k", "m/s^2", 1)],
+            false,
+        ),
+        (
+            "the position: like a spring to an anchor",
+            Acceleration,
+            "a - k * p",
+            &[("k", "1/s^2", 1), ("a", "m/s^2", 3)],
+            true,
+        ),
+        (
+            "the velocity against what moves: like drag in a wind",
+            Acceleration,
+            "a - k * v",
+            &[("k", "1/s", 1), ("a", "m/s^2", 3)],
+            true,
+        ),
+        (
+            "a fixed axis × velocity: like Coriolis' force",
+            Acceleration,
+            "cross(W, v)",
+            &[("W", "1/s", 3)],
+            true,
+        ),
+        (
+            "the body's own directions: like a thrust",
+            Acceleration,
+            "rotate(f)",
+            &[("f", "m/s^2", 3)],
+            true,
+        ),
+        ("time: it grows along one direction", Acceleration, "t * b", &[("b", "m/s^3", 3)], true),
+        ("the spin", Torque, "k * L", &[("k", "1/s", 1)], false),
+        ("nothing: it is constant in the world", Torque, "b", &[("b", "m^2/s^2", 3)], true),
+        (
+            "the body's own directions: like a motor's",
+            Torque,
+            "rotate(f)",
+            &[("f", "m^2/s^2", 3)],
+            true,
+        ),
+    ]
+};
+
+static FORMS: LazyLock<Vec<LawForm>> = LazyLock::new(|| {
+    let form = |(goes_with, kind, law, parameters, is_foreign): Row| {
+        let effect = law_of(hook(kind), law, parameters);
+        LawForm { goes_with, kind, law, is_foreign, effect }
+    };
+    ROWS.into_iter().map(form).collect()
+});
+
+/// All of them.
+pub(super) fn forms() -> &'static [LawForm] {
+    &FORMS
+}
+
+/// An acceleration or a torque that is any polynomial of this degree in time, on either side of the
+/// collision: the parameters of one side come first, in rising powers, then those of the other.
+pub(super) fn free(kind: Kind, degree: usize) -> Effect {
+    let unit = |power: usize| match kind {
+        Kind::Acceleration => format!("m/s^{}", 2 + power),
+        Kind::Torque => format!("m^2/s^{}", 2 + power),
+    };
+    let names = |side: &str| (0..=degree).map(|power| format!("{side}{power}")).collect::<Vec<_>>();
+    let side = |side: &str| {
+        let term = |(power, name): (usize, String)| name + &" * (t - t_c)".repeat(power);
+        names(side).into_iter().enumerate().map(term).collect::<Vec<_>>().join(" + ")
+    };
+    let law = format!("step(t_c - t) * ({}) + step(t - t_c) * ({})", side("b"), side("c"));
+    let units: Vec<String> = (0..=degree).map(unit).collect();
+    let [before, after] = ["b", "c"].map(names);
+    let names = before.iter().zip(&units).chain(after.iter().zip(&units));
+    let parameters: Vec<_> = names.map(|(name, unit)| (name.as_str(), unit.as_str(), 3)).collect();
+    law_of(hook(kind), &law, &parameters)
+}
+
+fn hook(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Acceleration => "acceleration",
+        Kind::Torque => "torque",
+    }
+}
+
+fn law_of(hook: &str, law: &str, parameters: &[(&str, &str, usize)]) -> Effect {
+    let scope = if law.contains('W') { "scene" } else { "body" };
+    let turns = ["rotate", "w", "L"].iter().any(|word| law.contains(word)) || hook == "torque";
+    let needs = if turns { "[\"orientation\"]" } else { "[]" };
+    let mut text =
+        format!("name = \"form\"\ntitle = \"A law\"\nscope = \"{scope}\"\nneeds = {needs}\n");
+    for (name, unit, components) in parameters {
+        let null = vec!["0.0"; *components].join(", ");
+        let null = if *components == 1 { null } else { format!("[{null}]") };
+        text += &format!("[parameters.{name}]\nunit = \"{unit}\"\nnull = {null}\n");
+    }
+    text += &format!("[law]\n{hook} = \"{law}\"\n");
+    // The texts are made of the rows above, and a test makes each.
+    Effect::parse(&text, "form").expect("the forms' texts are good")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_forms_are_laws() {
+        assert_eq!(forms().len(), ROWS.len());
+        for (kind, degree) in [(Kind::Acceleration, 1), (Kind::Torque, 2)] {
+            assert_eq!(free(kind, degree).parameters.len(), 2 * (degree + 1));
+        }
+    }
+}

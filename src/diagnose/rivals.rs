@@ -1,0 +1,69 @@
+//! Laws that the catalogue hasn't got, held against the best that it has: a name isn't given with
+//! confidence where a law of a simple form explains as much.
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::FALSE_ALARM;
+use super::evidence::evidence;
+use super::forms::{LawForm, forms};
+use crate::reconstruct::refined::{Fitted, Instance, gains, possible};
+use crate::{Result, Scene};
+
+/// Forms that are refitted, the best by score.
+const REFITTED: usize = 4;
+/// A form whose score is less than this share of the best one's isn't refitted.
+const WORTH: f64 = 0.3;
+
+/// A law of a simple form that isn't in the catalogue.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OtherLaw {
+    /// The body that it acts on; null for all.
+    pub body: Option<String>,
+    /// What it goes with, in words.
+    pub goes_with: String,
+    /// As a line of an effect file's `[law]`.
+    pub law: String,
+    /// By how much χ² falls with it; as improbable, where the noise is estimated.
+    pub delta_chi2: f64,
+    /// How many independent numbers it adds.
+    pub parameters_added: usize,
+    /// Schwarz's criterion against the model without it; the smaller, the better.
+    pub bic: f64,
+}
+
+/// The laws that explain `scene` significantly better than its model, the best first. `tried`: how
+/// many candidates there are beside them.
+pub(crate) fn rivals(scene: &Scene, fitted: &Fitted, tried: usize) -> Result<Vec<OtherLaw>> {
+    let foreign = forms().iter().filter(|form| form.is_foreign);
+    let all: Vec<(&LawForm, Instance)> = foreign
+        .flat_map(|form| possible(scene, &form.effect).into_iter().map(move |one| (form, one)))
+        .collect();
+    let tests: Vec<(Instance, Vec<f64>)> =
+        all.iter().map(|(_, instance)| (instance.clone(), instance.null())).collect();
+    let worth = |count: usize| count as f64 * fitted.numbers().ln();
+    let scores: Vec<f64> =
+        gains(fitted, &tests)?.iter().map(|gain| gain.chi2 - worth(gain.directions)).collect();
+    let best = scores.iter().copied().fold(0.0, f64::max);
+    let mut order: Vec<usize> = (0..all.len()).filter(|&i| scores[i] > WORTH * best).collect();
+    order.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
+    order.truncate(REFITTED);
+    let tried = tried + all.len();
+    let refitted = |index: &usize| {
+        let (form, instance) = &all[*index];
+        let with = fitted.with_quickly(scene, instance).ok()?;
+        let evidence = evidence(fitted, &with, 1, tried)?;
+        (evidence.p_value < FALSE_ALARM).then(|| OtherLaw {
+            body: instance.body.map(|body| scene.bodies()[body].name.clone()),
+            goes_with: form.goes_with.to_string(),
+            law: form.line(),
+            delta_chi2: evidence.delta_chi2,
+            parameters_added: evidence.parameters,
+            bic: evidence.bic(with.numbers(), None),
+        })
+    };
+    let mut rivals: Vec<OtherLaw> = order.par_iter().filter_map(refitted).collect();
+    rivals.sort_by(|a, b| a.bic.total_cmp(&b.bic));
+    Ok(rivals)
+}
