@@ -34,10 +34,10 @@ pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::{HeldOut, held_out_rmse_m};
 pub(crate) use leftover::Leftover;
-pub(crate) use pooled::{PooledCandidate, Throw, pooled};
+pub(crate) use pooled::{Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes};
 pub(crate) use rivals::rivals;
-pub(crate) use throws::{instances, looks, reduced_chi2, throws};
+pub(crate) use throws::{best_of, instances, looks, reduced_chi2, throws};
 
 use rayon::prelude::*;
 
@@ -79,13 +79,19 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
     // A score test that fails leaves all to be refitted.
     let promising =
         candidates::promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
-    let mut candidates: Vec<Candidate> = promising
-        .par_iter()
-        .filter_map(|instance| {
+    let refitted = |chosen: &[Instance]| -> Vec<Candidate> {
+        let refitted = chosen.par_iter().filter_map(|instance| {
             let with = fitted.with_quickly(scene, instance).ok()?;
             candidates::candidate(scene, fitted, with, instances.len(), before.as_ref())
-        })
-        .collect();
+        });
+        refitted.collect()
+    };
+    let mut candidates = refitted(&promising);
+    // Far from the null slopes foretell little: where none of these will do, another may.
+    if candidates.iter().all(|candidate| Goodness::by(&candidate.fitted, &[]).is_structured) {
+        let others = instances.iter().filter(|instance| !promising.contains(instance));
+        candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
+    }
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     candidates
 }

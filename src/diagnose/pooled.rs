@@ -43,6 +43,8 @@ pub(crate) struct PooledCandidate {
     pub(crate) scatter: f64,
     /// Whether throws are met better with what the others say of the effect.
     pub(crate) predicts: bool,
+    /// Whether θ̄ is one that the effect can have, within its errors.
+    pub(crate) is_possible: bool,
 }
 
 /// What one throw says of an effect.
@@ -58,7 +60,7 @@ pub(crate) struct Own {
 
 impl PooledCandidate {
     pub(crate) fn stands_out(&self) -> bool {
-        self.p_value < FALSE_ALARM && self.bic < 0.0 && self.predicts
+        self.p_value < FALSE_ALARM && self.bic < 0.0 && self.predicts && self.is_possible
     }
 
     /// The effect as a throw has it: with the values of all throws, or free where each has its own.
@@ -177,14 +179,16 @@ fn candidate(
     };
     let numbers: f64 = throws.iter().map(|throw| throw.fitted.numbers()).sum();
     let inverse = total.clone().pseudo_inverse(1e-12 * total.norm()).ok()?;
-    let stds = (0..null.len()).map(|i| {
+    let std = |i: usize| {
         let told = total[(i, i)] > 0.0;
         told.then(|| (scatter2 * inverse[(i, i)]).sqrt())
-    });
+    };
+    let stds: Vec<Option<f64>> = (0..null.len()).map(std).collect();
     Some(PooledCandidate {
         label,
         values: mean.iter().copied().collect(),
-        stds: stds.collect(),
+        is_possible: is_possible(&first.instance, &mean, &stds),
+        stds,
         delta,
         parameters,
         p_value: (tried as f64 * single.max(by_scatter)).min(1.0),
@@ -221,6 +225,7 @@ fn each_its_own(
         agreement: None,
         scatter: 1.0,
         predicts: true,
+        is_possible: true,
         own,
     }
 }
@@ -233,6 +238,19 @@ fn significance(throws: &[Throw], known: &[&Own], delta: f64, count: f64) -> f64
     let spare: f64 = known.iter().map(|own| own.spare).sum();
     let f = (delta / spare).exp_m1() * spare / count;
     FisherSnedecor::new(count, spare.max(1.0)).map_or(1.0, |fisher| fisher.sf(f))
+}
+
+/// Whether `values` are within the effect's bounds, or beyond them by no more than their errors.
+fn is_possible(instance: &Instance, values: &DVector<f64>, stds: &[Option<f64>]) -> bool {
+    /// Deviations.
+    const BEYOND: f64 = 3.0;
+    let free = instance.effect.parameters.iter();
+    let free = free.filter(|parameter| !instance.fixed.contains_key(&parameter.name));
+    let bounds = free.flat_map(|parameter| parameter.null.iter().map(|_| parameter.bounds));
+    bounds.zip(values.iter().zip(stds)).all(|([low, high], (value, std))| {
+        let beyond = BEYOND * std.unwrap_or(f64::INFINITY);
+        value + beyond >= low && value - beyond <= high
+    })
 }
 
 fn free_null(instance: &Instance) -> Vec<f64> {

@@ -9,8 +9,9 @@ use super::diagnosis::{
 };
 use super::pooled::{Own, PooledCandidate, Throw, pooled};
 use super::ranking::TELLS_APART;
+use super::verdict::EXPLAINS;
 use super::words::{explanation_of_throws, listed};
-use super::{Goodness, all_candidates, reported};
+use super::{Goodness, all_candidates, held_out_rmse_m, reported};
 use crate::compare::{ChannelTest, channels};
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{self, Instance};
@@ -38,9 +39,15 @@ pub fn diagnose_throws(
     let instances = instances(&throws, further)?;
     let candidates = pooled(&throws, &instances);
     let (channels, is_structured) = looks(&throws)?;
-    let first = candidates.iter().position(PooledCandidate::stands_out);
-    let verdict = match first {
-        Some(_) => Verdict::Missing,
+    let rest = best_of(&throws, &candidates).map(|(_, rest)| rest);
+    let stays_structured = match &rest {
+        Some(rest) => looks(rest)?.1,
+        None => false,
+    };
+    let explains = |rest: &Vec<Throw>| misses_m2(rest) < EXPLAINS * misses_m2(&throws);
+    let verdict = match rest {
+        Some(rest) if !stays_structured || explains(&rest) => Verdict::Missing,
+        Some(_) => Verdict::UnknownEffect,
         None if is_structured => Verdict::UnknownEffect,
         None => Verdict::NothingMissing,
     };
@@ -67,7 +74,7 @@ pub fn diagnose_throws(
         reduced_chi2: reduced_chi2(&throws),
         candidates: reports,
         probability_of_nothing: weight(0.0) / total,
-        stays_structured: false,
+        stays_structured,
         unexplained: Vec::new(),
         other_laws: Vec::new(),
         explanation: String::new(),
@@ -91,6 +98,33 @@ pub(crate) fn throws<'a>(scenes: &'a [Scene], options: &RefinedOptions) -> Resul
             Ok(Throw { scene, fitted })
         })
         .collect()
+}
+
+/// The best of the candidates that stand out and that every throw can be flown with, and the throws
+/// with it.
+pub(crate) fn best_of<'a, 'b>(
+    throws: &[Throw<'a>],
+    candidates: &'b [PooledCandidate],
+) -> Option<(&'b PooledCandidate, Vec<Throw<'a>>)> {
+    let mut good = candidates.iter().filter(|candidate| candidate.stands_out());
+    good.find_map(|candidate| Some((candidate, with_effect(throws, candidate).ok()?)))
+}
+
+/// The throws with an effect more, with what all of them say of it.
+fn with_effect<'a>(throws: &[Throw<'a>], effect: &PooledCandidate) -> Result<Vec<Throw<'a>>> {
+    let with = |(index, throw): (usize, &Throw<'a>)| {
+        let fitted = match effect.held(index) {
+            Some(held) => throw.fitted.with(throw.scene, &held)?,
+            None => throw.fitted.clone(),
+        };
+        Ok(Throw { scene: throw.scene, fitted })
+    };
+    throws.iter().enumerate().map(with).collect()
+}
+
+/// The sum of the mean squares by which unseen positions are missed, m².
+fn misses_m2(throws: &[Throw]) -> f64 {
+    throws.iter().filter_map(|throw| held_out_rmse_m(&throw.fitted)).map(|rmse| rmse * rmse).sum()
 }
 
 /// The candidates of each throw.

@@ -51,6 +51,8 @@ pub struct Form {
     pub law: String,
     /// How much of the fall of χ² this law alone brings, 0 to 1.
     pub share: f64,
+    /// Its factor `k`, or the length of its vector, in SI units.
+    pub factor: f64,
 }
 
 /// A free force or torque that was tried.
@@ -116,6 +118,7 @@ fn described(
         goes_with: form.goes_with.to_string(),
         law: form.line(),
         share: (own.chi2 / gain.chi2).clamp(0.0, 1.0),
+        factor: factor(form, &own.step),
     };
     Unexplained {
         body: scene.bodies()[body].name.clone(),
@@ -124,6 +127,13 @@ fn described(
         rms: (values.iter().map(Vector3::norm_squared).sum::<f64>() / count).sqrt(),
         mean: (values.iter().sum::<Vector3<f64>>() / count).into(),
         forms: alike.iter().take(MOST_FORMS).map(form).collect(),
+    }
+}
+
+fn factor(form: &LawForm, step: &[f64]) -> f64 {
+    match form.effect.parameters[0].null.len() {
+        1 => step[0],
+        _ => Vector3::from_row_slice(&step[..3]).norm(),
     }
 }
 

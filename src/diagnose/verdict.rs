@@ -18,7 +18,7 @@ const FEWEST_TOLD: usize = 5;
 /// Firsts of a pair that are tried where one effect isn't enough.
 const FIRSTS: usize = 3;
 /// An effect that leaves more than this share of what the model misses doesn't explain it.
-const EXPLAINS: f64 = 0.5;
+pub(super) const EXPLAINS: f64 = 0.5;
 
 /// The answer for `scene`, fitted, with its candidates in order.
 pub(super) fn diagnosis(

@@ -30,7 +30,10 @@ pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
 pub(super) fn explanation_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::Missing, Some(best)) => {
-            let mut text = format!("In {count} throws together: {}", missing(best, None, false));
+            let mut text = format!(
+                "In {count} throws together: {}",
+                missing(best, None, diagnosis.stays_structured)
+            );
             let agreement = best.throws.as_ref();
             if let Some((p, scatter)) = agreement.and_then(|a| Some((a.p_value?, a.scatter))) {
                 text += &match p < 0.01 {
@@ -45,8 +48,9 @@ pub(super) fn explanation_of_throws(diagnosis: &Diagnosis, count: usize) -> Stri
             text
         }
         (Verdict::UnknownEffect, _) => format!(
-            "Most of the {count} throws are missed by more than their noise, and no effect that they \
-             could share explains it."
+            "Many of the {count} throws are missed by more than their noise, and no effect that they \
+             could share explains it. A body that rolls, slides or lies on another is in no flight: \
+             leave such poses out."
         ),
         _ => format!(
             "{count} throws together show nothing that is missing. An effect weaker than the noise \

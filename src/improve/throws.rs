@@ -2,8 +2,10 @@
 //! that all of them together say.
 
 use super::{Improvement, Rung};
-use crate::diagnose::{PooledCandidate, Throw, Verdict, held_out_rmse_m, instances, looks, pooled};
-use crate::diagnose::{reduced_chi2, reported, throws};
+use crate::diagnose::{
+    Throw, Verdict, best_of, held_out_rmse_m, instances, looks, pooled, reduced_chi2, reported,
+    throws,
+};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
 use crate::reconstruct::refined::Instance;
@@ -26,17 +28,13 @@ pub fn improve_throws(
     let mut ladder = vec![rung(&throws, None, None, Vec::new())?];
     for _ in 0..MOST_EFFECTS {
         let candidates = pooled(&throws, &instances(&throws, further)?);
-        let Some(best) = candidates.into_iter().find(PooledCandidate::stands_out) else { break };
-        let mut setting = None;
-        for (index, throw) in throws.iter_mut().enumerate() {
-            if let Some(held) = best.held(index) {
-                throw.fitted = throw.fitted.with(throw.scene, &held)?;
-                setting.get_or_insert_with(|| with_values(&best.label, &held));
-            }
-        }
+        let Some((best, with)) = best_of(&throws, &candidates) else { break };
+        let setting = (0..throws.len()).find_map(|index| best.held(index));
+        let setting = setting.map(|held| with_values(&best.label, &held));
+        throws = with;
         let known = ladder.last().map(|rung: &Rung| rung.with.clone()).unwrap_or_default();
         let with: Vec<String> = known.into_iter().chain(setting).collect();
-        ladder.push(rung(&throws, Some(best.label), Some(best.p_value), with)?);
+        ladder.push(rung(&throws, Some(best.label.clone()), Some(best.p_value), with)?);
     }
     let (_, is_structured) = looks(&throws)?;
     let verdict = match (ladder.len() > 1, is_structured) {
