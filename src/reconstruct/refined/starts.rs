@@ -173,7 +173,7 @@ fn beside_the_null(
     let strikes = acting.instance.acts_at_the_contact();
     // One parameter alone has its slope; a product of two has none where both are zero.
     let is_product = acting.instance.effect.parameters.len() > 1;
-    if !strikes && !(is_product && is_flat(refined, acting, unknowns, *gap)?) {
+    if !(strikes || is_product && is_flat(refined, acting, unknowns, *gap)?) {
         return Ok(Vec::new());
     }
     let away = away(refined, acting, unknowns, 1.0);
