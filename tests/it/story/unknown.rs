@@ -15,7 +15,7 @@ fn example(name: &str) -> String {
 
 /// `known`: what is typed after the file's path.
 fn tell(spec: SimulationSpec, hidden: EffectSpec, known: &str) {
-    let simulation = with(spec, &[hidden.clone()]);
+    let simulation = with(spec, std::slice::from_ref(&hidden));
     let scene = &simulation.scene;
     let base = RefinedOptions::default();
     let diagnosis = smash::diagnose(scene, &base, &[]).unwrap();
@@ -29,7 +29,7 @@ fn tell(spec: SimulationSpec, hidden: EffectSpec, known: &str) {
     }
 
     let typed = format!("{}{known}", hidden.name);
-    let result = fit(scene, &[typed.clone()]);
+    let result = fit(scene, std::slice::from_ref(&typed));
     assert!(is_in_band(&result, LAWS), "{typed}: {:?}", result.fit);
     assert_right(&simulation, &result, &typed);
 
