@@ -153,11 +153,7 @@ impl BodyView {
             position: seen.position_in_world.into(),
             orientation: seen.world_from_body.as_ref().map(to_wxyz),
         });
-        BodyView {
-            name: body.name.clone(),
-            shape: body.shape.clone(),
-            observations: seen.collect(),
-        }
+        BodyView { name: body.name.clone(), shape: body.shape, observations: seen.collect() }
     }
 }
 

@@ -76,7 +76,7 @@ fn the_energy_lost_is_that_of_the_restitution() {
         let ledger = ledger(&file, &Options::default());
         let point = Vector3::from(truth.contact_point);
         let velocity = |index: usize| {
-            let (seen, shape) = (&truth.bodies[index], file.bodies[index].shape.clone().unwrap());
+            let (seen, shape) = (&truth.bodies[index], file.bodies[index].shape.unwrap());
             let [w, x, y, z] = seen.orientation;
             let q = nalgebra::Quaternion::new(w, x, y, z);
             let body = RigidBody {
