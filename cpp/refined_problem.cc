@@ -1,11 +1,13 @@
 #include "refined_problem.h"
 
 #include <ceres/dynamic_autodiff_cost_function.h>
+#include <ceres/iteration_callback.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -33,6 +35,27 @@ constexpr double kLargestError = 0.02;
 constexpr int kFinest = 16;
 // Of one flight with effects: what takes more is a spin on its way beyond all numbers.
 constexpr double kMostEffectSteps = 2e4;
+
+// Ends the search where the collision time stays at an end of its segment: there steps are short, and
+// most often lead nowhere, since the optimum is in the next segment.
+class StaysAtAnEnd : public ceres::IterationCallback {
+ public:
+  StaysAtAnEnd(const RefinedProblem& problem, const double* time_s)
+      : problem_(problem), time_s_(time_s) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    const bool is_at_an_end = *time_s_ <= problem_.earliest_s || *time_s_ >= problem_.latest_s;
+    iterations_ = is_at_an_end ? iterations_ + 1 : 0;
+    return iterations_ < problem_.most_iterations_at_an_end
+               ? ceres::SOLVER_CONTINUE
+               : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+ private:
+  const RefinedProblem& problem_;
+  const double* time_s_;
+  std::uint32_t iterations_ = 0;
+};
 
 class RefinedFit {
  public:
@@ -65,6 +88,9 @@ class RefinedFit {
     // it.
     options.max_num_consecutive_invalid_steps = 50;
     options.logging_type = ceres::SILENT;
+    StaysAtAnEnd stays_at_an_end(problem_, blocks_.time.values.data());
+    options.callbacks.push_back(&stays_at_an_end);
+    options.update_state_every_iteration = true;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);
     if (!summary.IsSolutionUsable()) {

@@ -14,6 +14,8 @@ use crate::scene::{Gap, gaps_between};
 use crate::{Error, ErrorKind, Result};
 
 const MOST_ITERATIONS: u32 = 50;
+/// Iterations after which a collision time that stays at its segment's end is taken to want beyond.
+const FEW_ITERATIONS: u32 = 4;
 
 /// An optimum in one segment.
 #[derive(Debug, Clone)]
@@ -34,6 +36,7 @@ pub(super) fn free_problem(unknowns: &RefinedUnknowns, gap: &Gap) -> RefinedProb
         hold: RefinedHold { collision_time: false, log_mass_ratio: false },
         restitution: RestitutionPin { value: 0.0, weight: 0.0 },
         most_iterations: MOST_ITERATIONS,
+        most_iterations_at_an_end: MOST_ITERATIONS,
         with_jacobian: false,
     }
 }
@@ -54,8 +57,10 @@ pub(super) fn optima_from(
     scene: &RefinedScene,
     starts: &[(RefinedUnknowns, Gap)],
 ) -> Result<Vec<Optimum>> {
-    let optima = all_optima(scene, starts.iter().map(|(unknowns, gap)| (unknowns, *gap)))?;
-    let mut walked: Vec<Optimum> = optima.into_iter().map(|best| walked(scene, best)).collect();
+    let from = starts.iter().map(|(unknowns, gap)| (unknowns, *gap));
+    let optima = all_optima(scene, from, Effort::UntilAtAnEnd)?;
+    let walked = optima.into_iter().map(|best| walked(scene, best));
+    let mut walked = walked.collect::<Result<Vec<Optimum>>>()?;
     sort(&mut walked);
     Ok(walked)
 }
@@ -80,16 +85,36 @@ pub(super) fn nested_optimum(
     Ok(Optimum { gap: nested.gap, covariance, solution })
 }
 
+/// How far an optimum is followed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Effort {
+    /// To its end.
+    Whole,
+    /// To its end, unless the collision time stays at its segment's end: there the steps are short, and
+    /// most often lead nowhere, since the optimum is in the next segment.
+    UntilAtAnEnd,
+}
+
+impl Effort {
+    fn problem(self, unknowns: &RefinedUnknowns, gap: &Gap) -> RefinedProblem {
+        let mut problem = free_problem(unknowns, gap);
+        if self == Effort::UntilAtAnEnd {
+            problem.most_iterations_at_an_end = FEW_ITERATIONS;
+        }
+        problem
+    }
+}
+
 /// On to the next segment, and the next, as long as the collision time ends at a bound and χ² falls.
-fn walked(scene: &RefinedScene, mut best: Optimum) -> Optimum {
+fn walked(scene: &RefinedScene, mut best: Optimum) -> Result<Optimum> {
     const MOST_STEPS: usize = 50;
     for _ in 0..MOST_STEPS {
         let Gap { start_s, end_s } = best.gap;
-        let margin_s = 1e-6 * (end_s - start_s);
         let time_s = best.solution.unknowns.collision_time_s;
-        if time_s - start_s >= margin_s && end_s - time_s >= margin_s {
+        if !is_at_an_end(best.gap, time_s) {
             break;
         }
+        let margin_s = margin_s(best.gap);
         let Ok(gaps) = gaps(scene, &best.solution.unknowns) else { break };
         let is_down = time_s - start_s < margin_s;
         let next = match is_down {
@@ -97,29 +122,45 @@ fn walked(scene: &RefinedScene, mut best: Optimum) -> Optimum {
             false => gaps.iter().find(|gap| gap.start_s >= end_s - margin_s),
         };
         let Some(&gap) = next else { break };
-        match optimum(scene, &best.solution.unknowns, gap) {
+        match optimum(scene, &best.solution.unknowns, gap, Effort::UntilAtAnEnd) {
             // By more than rounding.
             Ok(other) if other.solution.cost < best.solution.cost * (1.0 - 1e-9) => best = other,
             _ => break,
         }
     }
-    best
+    let gave_up =
+        !best.solution.converged && is_at_an_end(best.gap, best.solution.unknowns.collision_time_s);
+    match gave_up {
+        true => optimum(scene, &best.solution.unknowns, best.gap, Effort::Whole),
+        false => Ok(best),
+    }
+}
+
+/// Nearer to a segment's end, a collision time is at it.
+fn margin_s(gap: Gap) -> f64 {
+    1e-6 * (gap.end_s - gap.start_s)
+}
+
+fn is_at_an_end(gap: Gap, time_s: f64) -> bool {
+    time_s - gap.start_s < margin_s(gap) || gap.end_s - time_s < margin_s(gap)
 }
 
 /// The optima from where they are: their noise has changed.
 pub(super) fn warm(scene: &RefinedScene, optima: &[Optimum]) -> Result<Vec<Optimum>> {
-    all_optima(scene, optima.iter().map(|known| (&known.solution.unknowns, known.gap)))
+    let from = optima.iter().map(|known| (&known.solution.unknowns, known.gap));
+    all_optima(scene, from, Effort::Whole)
 }
 
 /// One that fails doesn't spoil the others.
 fn all_optima<'a>(
     scene: &RefinedScene,
     starts: impl Iterator<Item = (&'a RefinedUnknowns, Gap)>,
+    effort: Effort,
 ) -> Result<Vec<Optimum>> {
     let mut optima = Vec::new();
     let mut failure = None;
     for (unknowns, gap) in starts {
-        match optimum(scene, unknowns, gap) {
+        match optimum(scene, unknowns, gap, effort) {
             Ok(optimum) => optima.push(optimum),
             Err(error) => failure = Some(error),
         }
@@ -140,10 +181,15 @@ pub(super) fn sort(optima: &mut [Optimum]) {
 
 /// The optimum from `unknowns`, with the collision in `gap`; where effects move the poses' times,
 /// in the gap that theirs then make.
-fn optimum(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result<Optimum> {
+fn optimum(
+    scene: &RefinedScene,
+    unknowns: &RefinedUnknowns,
+    gap: Gap,
+    effort: Effort,
+) -> Result<Optimum> {
     /// Times that move poses across the collision settle within a few.
     const MOST_ROUNDS: usize = 6;
-    let mut solution = solved(scene, unknowns, gap)?;
+    let mut solution = solved(scene, unknowns, gap, effort)?;
     let mut gap = gap;
     if moves_times(scene) {
         for _ in 0..MOST_ROUNDS {
@@ -155,17 +201,22 @@ fn optimum(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result
                 break;
             }
             let from = solution.unknowns.clone();
-            solution = solved(scene, &from, gap)?;
+            solution = solved(scene, &from, gap, effort)?;
         }
     }
     Ok(Optimum { gap, covariance: Covariance::new(&total_information(&solution)), solution })
 }
 
-fn solved(scene: &RefinedScene, unknowns: &RefinedUnknowns, gap: Gap) -> Result<RefinedSolution> {
-    let solution =
-        ffi::solve_refined(scene, &free_problem(unknowns, &gap)).map_err(solver_error)?;
+fn solved(
+    scene: &RefinedScene,
+    unknowns: &RefinedUnknowns,
+    gap: Gap,
+    effort: Effort,
+) -> Result<RefinedSolution> {
+    let problem = effort.problem(unknowns, &gap);
+    let solution = ffi::solve_refined(scene, &problem).map_err(solver_error)?;
     match held_at_bounds(scene, &solution.unknowns) {
-        Some(held) => along_bounds(scene, &held, solution, gap),
+        Some(held) => along_bounds(scene, &held, solution, gap, effort),
         None => Ok(solution),
     }
 }
@@ -187,9 +238,10 @@ fn along_bounds(
     held: &RefinedScene,
     met: RefinedSolution,
     gap: Gap,
+    effort: Effort,
 ) -> Result<RefinedSolution> {
-    let moved =
-        ffi::solve_refined(held, &free_problem(&met.unknowns, &gap)).map_err(solver_error)?;
+    let problem = effort.problem(&met.unknowns, &gap);
+    let moved = ffi::solve_refined(held, &problem).map_err(solver_error)?;
     if moved.cost >= met.cost {
         return Ok(met);
     }

@@ -88,6 +88,7 @@ impl Case {
                 hold: RefinedHold { collision_time: false, log_mass_ratio: false },
                 restitution: RestitutionPin { value: 0.0, weight: 0.0 },
                 most_iterations: 50,
+                most_iterations_at_an_end: 50,
                 with_jacobian: false,
             },
         }
