@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::draws::Draws;
 use super::leverage::Leverage;
 use super::randomness::{Pattern, RandomnessTest, Series, deviate};
 use super::residuals::{Side, sides};
@@ -94,13 +95,14 @@ pub(super) fn channels_of(
     yardsticks: &Yardsticks,
 ) -> Result<Vec<ChannelTest>> {
     let leverage = Leverage::new(scene, result)?;
+    let mut draws = Draws::new();
     let mut all = Vec::new();
     for side in sides {
         for axis in Axis::ALL {
             let Some(stick) = yardsticks.of(axis.channel()) else { continue };
             let points = points(scene, side, axis, result.collision_time.value.unwrap_or(0.0));
             if !points.is_empty() {
-                all.push(tested(side, axis, &points, stick, leverage.as_ref()));
+                all.push(tested(side, axis, &points, stick, leverage.as_ref(), &mut draws));
             }
         }
     }
@@ -140,6 +142,7 @@ fn tested(
     points: &[Point],
     stick: Yardstick,
     leverage: Option<&Leverage>,
+    draws: &mut Draws,
 ) -> ChannelTest {
     let rows: Vec<_> = points
         .iter()
@@ -155,7 +158,7 @@ fn tested(
         taken: DMatrix::from_fn(points.len(), columns, |row, column| rows[row][column]),
         dof: stick.dof,
     };
-    let verdict = series.verdict();
+    let verdict = series.verdict(draws);
     let squares: f64 = points.iter().map(|point| point.value.powi(2)).sum();
     let rmse = (squares / points.len() as f64).sqrt();
     let largest = points.iter().fold(&points[0], |most, point| {

@@ -10,6 +10,7 @@
 mod axis;
 mod channels;
 mod comparison;
+mod draws;
 mod findings;
 mod flight;
 mod identity;

@@ -5,12 +5,11 @@
 //! (Besag & Clifford, *Sequential Monte Carlo p-values*, 1991).
 
 use nalgebra::{DMatrix, DVector};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal, StudentsT};
+
+use super::draws::Draws;
 
 /// Fewer poses have no shape.
 const LEAST_POSES: usize = 4;
@@ -27,6 +26,11 @@ const LEAST_SHARE: f64 = 0.05;
 const MOST_SIMULATED: usize = 49_999;
 const MOST_WORK: usize = 20_000_000;
 const ENOUGH_EXCEEDANCES: usize = 20;
+/// Series simulated at once, as the columns of one product; the first few often are enough.
+const FIRST_SERIES: usize = 32;
+const SERIES_AT_ONCE: usize = 256;
+/// What the fit takes less of than this of a direction's variance is rounding.
+const LEAST_TAKEN: f64 = 1e-14;
 /// Below, p-values tell no more which test is clearer.
 const CERTAIN: f64 = 1e-9;
 
@@ -112,7 +116,7 @@ pub(super) fn deviate(p_value: f64) -> f64 {
 
 impl Series {
     /// Tests the series.
-    pub(super) fn verdict(&self) -> Verdict {
+    pub(super) fn verdict(&self, draws: &mut Draws) -> Verdict {
         let null = Null::new(self);
         let mut tests = vec![self.scatter(&null)];
         if self.values.len() >= LEAST_POSES {
@@ -120,12 +124,7 @@ impl Series {
                 tests.push(self.sum(&null, test, &contrast));
             }
             if self.values.amax() > NEGLIGIBLE {
-                tests.push(null.simulated(TestName::Runs, &self.values, run_length));
-                tests.push(null.simulated(
-                    TestName::Autocorrelation,
-                    &self.values,
-                    autocorrelation,
-                ));
+                tests.extend(null.simulated(self.values.as_slice(), draws));
             }
             tests.push(self.outlier(&null));
         }
@@ -275,44 +274,87 @@ impl Null {
         (mean.max(LEAST_SHARE * count), variance.max(2.0 * LEAST_SHARE * count))
     }
 
-    /// How often noise has as large a `statistic` as `values`.
-    fn simulated(
-        &self,
-        test: TestName,
-        values: &DVector<f64>,
-        statistic: impl Fn(&DVector<f64>) -> f64,
-    ) -> RandomnessTest {
-        let seen = statistic(values);
-        let mut random = ChaCha8Rng::seed_from_u64(0);
-        let kept = self.taken.map(|taken| 1.0 - (1.0 - taken).sqrt());
-        let (mut exceedances, mut drawn) = (0, 0);
+    /// How often noise has signs that stay, and neighbours that go together, as much as `values` have.
+    fn simulated(&self, values: &[f64], draws: &mut Draws) -> [RandomnessTest; 2] {
+        let mut tests = [
+            Simulated::new(TestName::Runs, run_length, values),
+            Simulated::new(TestName::Autocorrelation, autocorrelation, values),
+        ];
         let most = (MOST_WORK / (self.count * (2 + self.taken.len()))).clamp(999, MOST_SIMULATED);
-        while drawn < most && exceedances < ENOUGH_EXCEEDANCES {
-            let noise = DVector::from_fn(self.count, |_, _| StandardNormal.sample(&mut random));
-            let along = self.u.tr_mul(&noise).component_mul(&kept);
-            let residuals = &noise - &self.u * along;
-            drawn += 1;
-            // Equal numbers of runs count in spite of rounding; correlations never are equal.
-            exceedances += usize::from(statistic(&residuals) >= seen - 1e-12);
+        let (along, kept) = self.directions();
+        let (mut first, mut series) = (0, FIRST_SERIES);
+        while first < most && !tests.iter().all(Simulated::is_decided) {
+            series = series.min(most - first);
+            let noise = draws.series(first, series, self.count);
+            let mut taken = along.tr_mul(&noise);
+            taken.row_iter_mut().zip(&kept).for_each(|(mut row, kept)| row *= *kept);
+            let mut residuals = noise.into_owned();
+            residuals.gemm(-1.0, &along, &taken, 1.0);
+            for residuals in residuals.as_slice().chunks_exact(self.count) {
+                tests.iter_mut().for_each(|test| test.hold_against(residuals));
+            }
+            first += series;
+            series = SERIES_AT_ONCE;
         }
-        let p_value = match exceedances == ENOUGH_EXCEEDANCES {
-            true => exceedances as f64 / drawn as f64,
-            false => (exceedances + 1) as f64 / (drawn + 1) as f64,
+        tests.map(|test| test.outcome())
+    }
+
+    /// The directions that the fit takes from, and how much shorter it makes noise along each.
+    fn directions(&self) -> (DMatrix<f64>, Vec<f64>) {
+        let columns: Vec<usize> =
+            (0..self.taken.len()).filter(|&column| self.taken[column] > LEAST_TAKEN).collect();
+        let kept = columns.iter().map(|&column| 1.0 - (1.0 - self.taken[column]).sqrt());
+        (self.u.select_columns(&columns), kept.collect())
+    }
+}
+
+/// A test whose p-value is found by simulation.
+struct Simulated {
+    test: TestName,
+    statistic: fn(&[f64]) -> f64,
+    seen: f64,
+    exceedances: usize,
+    drawn: usize,
+}
+
+impl Simulated {
+    fn new(test: TestName, statistic: fn(&[f64]) -> f64, values: &[f64]) -> Simulated {
+        Simulated { test, statistic, seen: statistic(values), exceedances: 0, drawn: 0 }
+    }
+
+    fn is_decided(&self) -> bool {
+        self.exceedances == ENOUGH_EXCEEDANCES
+    }
+
+    /// Counts the residuals of simulated noise, until the test is decided.
+    fn hold_against(&mut self, residuals: &[f64]) {
+        if !self.is_decided() {
+            self.drawn += 1;
+            // Equal numbers of runs count in spite of rounding; correlations never are equal.
+            let exceeds = (self.statistic)(residuals) >= self.seen - 1e-12;
+            self.exceedances += usize::from(exceeds);
+        }
+    }
+
+    fn outcome(self) -> RandomnessTest {
+        let (exceedances, drawn) = match self.is_decided() {
+            true => (self.exceedances, self.drawn),
+            false => (self.exceedances + 1, self.drawn + 1),
         };
-        RandomnessTest { test, statistic: seen, p_value }
+        let p_value = exceedances as f64 / drawn as f64;
+        RandomnessTest { test: self.test, statistic: self.seen, p_value }
     }
 }
 
 /// The mean number of values in a row that have one sign.
-fn run_length(values: &DVector<f64>) -> f64 {
-    let signs: Vec<bool> = values.iter().map(|value| *value > 0.0).collect();
-    let runs = 1 + signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
-    values.len() as f64 / runs as f64
+fn run_length(values: &[f64]) -> f64 {
+    let changes = values.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count();
+    values.len() as f64 / (1 + changes) as f64
 }
 
 /// Of each value with the next, about zero: a fit leaves no mean of its own to take away.
-fn autocorrelation(values: &DVector<f64>) -> f64 {
-    let neighbours: f64 = values.as_slice().windows(2).map(|pair| pair[0] * pair[1]).sum();
-    let squares = values.norm_squared();
+fn autocorrelation(values: &[f64]) -> f64 {
+    let neighbours: f64 = values.windows(2).map(|pair| pair[0] * pair[1]).sum();
+    let squares: f64 = values.iter().map(|value| value * value).sum();
     if squares > 0.0 { neighbours / squares } else { 0.0 }
 }
