@@ -1,6 +1,7 @@
 //! The one error type: what is wrong, where, and how to mend it.
 
 use std::fmt;
+use std::ops::Range;
 
 /// Shorthand for this crate's results.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -32,12 +33,14 @@ pub struct Error {
     place: Option<String>,
     problem: String,
     mend: Option<String>,
+    /// Boxed, so that results stay small.
+    span: Option<Box<Range<usize>>>,
 }
 
 impl Error {
     /// An error of `kind` with the `problem` in words.
     pub fn new(kind: ErrorKind, problem: impl Into<String>) -> Self {
-        Error { kind, file: None, place: None, problem: problem.into(), mend: None }
+        Error { kind, file: None, place: None, problem: problem.into(), mend: None, span: None }
     }
 
     /// A broken rule; the most frequent kind.
@@ -66,6 +69,13 @@ impl Error {
         self
     }
 
+    /// Adds where in the text at the place, in bytes.
+    #[must_use]
+    pub(crate) fn spanning(mut self, span: Range<usize>) -> Self {
+        self.span = Some(Box::new(span));
+        self
+    }
+
     /// Says the problem in other words.
     #[must_use]
     pub(crate) fn problem_in_words(mut self, problem: String) -> Self {
@@ -86,6 +96,11 @@ impl Error {
     /// What is wrong, without file and place.
     pub fn problem(&self) -> &str {
         &self.problem
+    }
+
+    /// Where in the text at the place, in bytes, if known; the problem's further lines then show it.
+    pub(crate) fn span(&self) -> Option<&Range<usize>> {
+        self.span.as_deref()
     }
 
     /// How to mend it, if known.

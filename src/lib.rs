@@ -21,6 +21,7 @@ pub mod report;
 pub mod rigid_body;
 pub mod scene;
 pub mod simulate;
+pub mod studio;
 
 mod bridge;
 mod error;

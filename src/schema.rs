@@ -12,6 +12,7 @@ use crate::reconstruct::Reconstruction;
 use crate::report::Report;
 use crate::scene::SceneFile;
 use crate::simulate::{SimulationSpec, Truth};
+use crate::studio::{Action, LawCheck, SessionFile, StudioState};
 
 /// The files that have a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -29,6 +30,10 @@ pub enum SchemaKind {
     Improvement,
     /// What the page of a report shows: `smash.report/1`
     Report,
+    /// What was tried in a studio: `smash.session/1`
+    Session,
+    /// What the page of a studio shows: `smash.studio/1`
+    Studio,
     /// What a planned film could show: `smash.power/1`
     Power,
     /// A law that the base model lacks (TOML)
@@ -44,7 +49,7 @@ pub enum SchemaKind {
 /// What it can't express (sums over several fields, unit lengths, times in order) is checked when
 /// a file is read.
 pub fn schema(kind: SchemaKind) -> String {
-    let generator = SchemaSettings::draft2020_12().into_generator();
+    let mut generator = SchemaSettings::draft2020_12().into_generator();
     pretty(&match kind {
         SchemaKind::Scene => generator.into_root_schema_for::<SceneFile>(),
         SchemaKind::Result => generator.into_root_schema_for::<Reconstruction>(),
@@ -52,6 +57,13 @@ pub fn schema(kind: SchemaKind) -> String {
         SchemaKind::Diagnosis => generator.into_root_schema_for::<Diagnosis>(),
         SchemaKind::Improvement => generator.into_root_schema_for::<Improvement>(),
         SchemaKind::Report => generator.into_root_schema_for::<Report>(),
+        SchemaKind::Session => generator.into_root_schema_for::<SessionFile>(),
+        SchemaKind::Studio => {
+            // What the page sends, and is answered beside the state.
+            generator.subschema_for::<Action>();
+            generator.subschema_for::<LawCheck>();
+            generator.into_root_schema_for::<StudioState>()
+        }
         SchemaKind::Power => generator.into_root_schema_for::<Power>(),
         SchemaKind::Effect => generator.into_root_schema_for::<EffectFile>(),
         SchemaKind::Simulation => generator.into_root_schema_for::<SimulationSpec>(),

@@ -4,9 +4,8 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
-use crate::files::read_text;
+use crate::files::{read_text, sha256};
 use crate::reconstruct::{Options, Reconstruction};
 
 /// All that a batch's result depends on.
@@ -25,9 +24,8 @@ pub struct Provenance {
 impl Provenance {
     /// That of a result made from the scene file's `text` with `options`, here and now.
     pub(super) fn of(text: &str, options: &Options) -> Provenance {
-        let digest = Sha256::digest(text.as_bytes());
         Provenance {
-            scene_sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            scene_sha256: sha256(text),
             options: serde_json::to_value(options)
                 .expect("plain numbers, strings and lists always have a JSON form"),
             smash: env!("CARGO_PKG_VERSION").to_string(),

@@ -19,6 +19,7 @@ mod reconstruct;
 mod report;
 mod schema;
 mod simulate;
+mod studio;
 mod summary;
 mod table;
 mod typed;
@@ -48,6 +49,7 @@ enum Command {
     Improve(improve::Arguments),
     Report(report::Arguments),
     Export(export::Arguments),
+    Studio(studio::Arguments),
     Power(power::Arguments),
     Effects(effects::Arguments),
     Import(import::Arguments),
@@ -69,6 +71,7 @@ pub fn main() -> ExitCode {
         Command::Improve(arguments) => improve::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Studio(arguments) => studio::run(&arguments),
         Command::Power(arguments) => power::run(&arguments),
         Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),

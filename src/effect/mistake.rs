@@ -32,6 +32,7 @@ impl Mistake {
         Error::new(ErrorKind::Invalid, format!("{}\n    {line}\n    {carets}", self.problem))
             .at(place)
             .mend(self.mend)
+            .spanning(self.span)
     }
 }
 

@@ -1,5 +1,6 @@
 //! An effect as a command line asks for it.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -26,6 +27,17 @@ impl EffectRequest {
     /// # Errors
     /// There is no such effect or parameter, or a value isn't within its bounds.
     pub fn parse(text: &str) -> Result<EffectRequest> {
+        EffectRequest::parse_among(text, |name| find(name).map(Cow::into_owned))
+    }
+
+    /// The same, with the effects that `find` knows by their names.
+    ///
+    /// # Errors
+    /// `find` knows none, or as [`EffectRequest::parse`].
+    pub(crate) fn parse_among(
+        text: &str,
+        find: impl Fn(&str) -> Result<Effect>,
+    ) -> Result<EffectRequest> {
         let (name, rest) = text.split_at(end_of_name(text));
         let (body, values) = match rest.split_once(':') {
             Some((body, values)) => (body, Some(values)),
@@ -41,7 +53,7 @@ impl EffectRequest {
         if body == Some("") {
             return Err(in_request("the body's name is missing", "write it after `@`"));
         }
-        let effect = find(name)?.into_owned();
+        let effect = find(name)?;
         let mut fixed = BTreeMap::new();
         for setting in values.map(settings).unwrap_or_default() {
             let Some((name, value)) = setting.split_once('=') else {

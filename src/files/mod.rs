@@ -1,9 +1,11 @@
 //! Reading and writing whole files: an output appears complete or not at all.
 
+mod digest;
 mod folder;
 mod output;
 mod place;
 
+pub(crate) use digest::sha256;
 pub use folder::OutputFolder;
 pub use output::{Output, check_distinct, write_together};
 pub(crate) use place::folder_of;

@@ -29,6 +29,14 @@ pub(crate) fn decode<T: DeserializeOwned>(text: &str, file: &str, schema: &str) 
     parse(text).and_then(|tree| decode_tree(&tree)).map_err(|error| error.in_file(file))
 }
 
+/// Reads what stands by itself, without a field `schema`, from its `text`.
+///
+/// # Errors
+/// Not JSON, or a value that doesn't fit; with the place, the value found and a mend.
+pub(crate) fn decode_part<T: DeserializeOwned>(text: &str) -> Result<T> {
+    parse(text).and_then(|tree| from_tree(&tree))
+}
+
 /// Reads a TOML file from its `text`.
 ///
 /// # Errors

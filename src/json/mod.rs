@@ -10,5 +10,5 @@ mod parse;
 mod pretty;
 mod toml;
 
-pub(crate) use decode::{check_schema, decode, decode_toml, is_of_another_kind};
+pub(crate) use decode::{check_schema, decode, decode_part, decode_toml, is_of_another_kind};
 pub(crate) use pretty::pretty;

@@ -34,4 +34,5 @@ mod simulate;
 mod simulate_command;
 mod simulate_effects;
 mod story;
+mod studio;
 mod with;

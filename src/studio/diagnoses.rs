@@ -1,0 +1,87 @@
+//! What variants lack: found once for each, one after the other, beside the acts.
+
+use std::num::NonZero;
+use std::sync::{Arc, Mutex, OnceLock};
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::locked;
+use crate::{Diagnosis, Error, ErrorKind, Result};
+
+/// Diagnoses that are kept.
+const MOST_KEPT: usize = 32;
+
+/// The diagnoses of a studio's variants.
+#[derive(Debug)]
+pub(super) struct Diagnoses {
+    asked: Mutex<Vec<Asked>>,
+    /// One diagnosis at a time, and on all cores but one: that is for the acts.
+    cores: Mutex<ThreadPool>,
+}
+
+/// A diagnosis that was asked for: of which variant, with how many laws beyond the catalogue.
+#[derive(Debug)]
+struct Asked {
+    variant: usize,
+    laws: usize,
+    found: Arc<OnceLock<Result<Diagnosis>>>,
+}
+
+impl Diagnoses {
+    /// Yet none.
+    pub(super) fn new() -> Result<Diagnoses> {
+        let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
+        let pool = ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
+        let cores = pool.map_err(|error| {
+            Error::new(ErrorKind::Solve, format!("the system gives no threads: {error}"))
+                .mend("end some other programs, and try again")
+        })?;
+        Ok(Diagnoses { asked: Mutex::default(), cores: Mutex::new(cores) })
+    }
+
+    /// What was found, if it was.
+    pub(super) fn known(&self, variant: usize, laws: usize) -> Option<Diagnosis> {
+        self.asked(variant, laws).get().and_then(|found| found.as_ref().ok()).cloned()
+    }
+
+    /// What was found, or what `diagnose` finds now, unless `is_stale` by the time that its turn comes.
+    pub(super) fn found(
+        &self,
+        variant: usize,
+        laws: usize,
+        diagnose: impl FnOnce() -> Result<Diagnosis> + Send,
+        is_stale: impl Fn() -> bool,
+    ) -> Result<Diagnosis> {
+        let overtaken = || {
+            Err(Error::new(ErrorKind::Solve, "another variant is seen by now").mend("ask again"))
+        };
+        let place = self.asked(variant, laws);
+        let found = match place.get() {
+            Some(found) => found.clone(),
+            None => {
+                let cores = locked(&self.cores);
+                // Whoever waited long may have been overtaken.
+                if is_stale() {
+                    return overtaken();
+                }
+                place.get_or_init(|| cores.install(diagnose)).clone()
+            }
+        };
+        if is_stale() { overtaken() } else { found }
+    }
+
+    /// The place of a diagnosis, made if need be.
+    fn asked(&self, variant: usize, laws: usize) -> Arc<OnceLock<Result<Diagnosis>>> {
+        let mut asked = locked(&self.asked);
+        let known = asked.iter().find(|one| one.variant == variant && one.laws == laws);
+        if let Some(known) = known {
+            return known.found.clone();
+        }
+        if asked.len() == MOST_KEPT {
+            asked.remove(0);
+        }
+        let found: Arc<OnceLock<_>> = Arc::default();
+        asked.push(Asked { variant, laws, found: found.clone() });
+        found
+    }
+}

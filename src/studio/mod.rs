@@ -1,0 +1,252 @@
+//! The studio: models of one scene, tried one after the other, with nothing lost.
+//!
+//! ```text
+//! action ─► session (tree of variants, draft) ─► fits (warm) ─► report ─┬─► state ─► page
+//!                │                                                      │
+//!                └─────────────► session file, before the answer        └─► diagnosis, on demand
+//! ```
+
+mod action;
+mod diagnoses;
+mod edits;
+mod file;
+mod fits;
+mod law;
+mod model;
+mod place;
+mod save;
+mod server;
+mod session;
+mod shown;
+mod state;
+mod tree;
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+pub use action::{Action, Change, Step};
+pub use edits::{Edits, MovedPose, Pose};
+pub use file::{SESSION_SCHEMA, SessionFile, SessionScene, SessionVariant};
+pub use law::{LawCheck, LawEffect, LawMistake};
+pub use server::Server;
+pub use state::{CatalogueEffect, LawView, STUDIO_SCHEMA, StudioState, VariantView};
+pub use tree::Numbers;
+
+use diagnoses::Diagnoses;
+use file::{LARGEST_SESSION_BYTES, LONGEST_DRAFT_BYTES};
+use fits::Fits;
+use save::Save;
+use session::Session;
+use shown::Shown;
+
+use crate::diagnose::diagnose;
+use crate::files::{display_name, read_text, sha256, shell_word};
+use crate::reconstruct::RefinedOptions;
+use crate::{Diagnosis, Error, Result, Scene};
+
+/// A scene, and a session of models of it. Any number of threads may use it at once.
+#[derive(Debug)]
+pub struct Studio {
+    scene: Arc<Scene>,
+    /// How it was named.
+    scene_file: String,
+    scene_sha256: String,
+    session_file: String,
+    /// What is seen; held for moments only.
+    shown: Mutex<Arc<Shown>>,
+    /// Whoever holds this changes what is seen: one after the other.
+    acting: Mutex<Acting>,
+    diagnoses: Diagnoses,
+}
+
+/// What acts work with.
+#[derive(Debug)]
+struct Acting {
+    fits: Fits,
+    save: Save,
+}
+
+impl Studio {
+    /// Opens the scene at `scene` with the session at `session`, which may not be there yet; by
+    /// default it stands beside the scene: `NAME.session.json` beside `NAME.json`.
+    ///
+    /// # Errors
+    /// The scene isn't one or can't be fitted; the session is another scene's or broken, or couldn't be
+    /// written.
+    pub fn open(scene: &Path, session: Option<&Path>) -> Result<Studio> {
+        let scene_file = display_name(scene, "standard input");
+        let text = read_text(scene)?;
+        let scene_sha256 = sha256(&text);
+        let mut save = Save::open(scene, session)?;
+        let scene = Arc::new(Scene::parse(&text, &scene_file)?);
+        let saved = save.read()?;
+        let session = match &saved {
+            Some(text) => SessionFile::parse(text, save.name())?
+                .session(&scene, &scene_sha256)
+                .map_err(|error| error.in_file(save.name()))?,
+            None => Session::new(),
+        };
+        let mut fits = Fits::new(scene.clone());
+        let started = Instant::now();
+        let mut shown = Shown::new(session, 1, &scene, &mut fits)
+            .map_err(|error| error.in_file(&scene_file))?;
+        if saved.is_none() {
+            shown.took(started);
+        }
+        Ok(Studio {
+            scene,
+            scene_file,
+            scene_sha256,
+            session_file: save.name().to_string(),
+            shown: Mutex::new(Arc::new(shown)),
+            acting: Mutex::new(Acting { fits, save }),
+            diagnoses: Diagnoses::new()?,
+        })
+    }
+
+    /// The scene, as it was read.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What is seen now.
+    pub fn state(&self) -> StudioState {
+        self.state_of(&self.shown())
+    }
+
+    /// Does `action`, saves the session, and tells what is seen then.
+    ///
+    /// # Errors
+    /// It can't be done, a model can't be fitted, or the session can't be saved; nothing is changed.
+    pub fn act(&self, action: Action) -> Result<StudioState> {
+        let mut acting = locked(&self.acting);
+        let started = Instant::now();
+        let before = self.shown();
+        let (session, has_grown) = before.session.after(&self.scene, action)?;
+        let mut after = self.fitted(&mut acting, session, &before)?;
+        if has_grown {
+            after.took(started);
+        }
+        let shown = self.show(&mut acting, after)?;
+        Ok(self.state_of(&shown))
+    }
+
+    /// Keeps the draft of a law, and tells what is wrong with it.
+    ///
+    /// # Errors
+    /// It is too long, or the session can't be saved.
+    pub fn check_law(&self, draft: &str) -> Result<LawCheck> {
+        if draft.len() > LONGEST_DRAFT_BYTES {
+            let problem = format!("is longer than {} KiB", LONGEST_DRAFT_BYTES >> 10);
+            return Err(Error::invalid("draft", problem).mend("a law is a page of text"));
+        }
+        let mut acting = locked(&self.acting);
+        let mut shown = self.shown();
+        if shown.session.draft != draft {
+            let mut after = (*shown).clone();
+            after.revision += 1;
+            after.session.draft = draft.to_string();
+            shown = self.show(&mut acting, after)?;
+        }
+        Ok(law::check(&self.scene, draft, shown.revision))
+    }
+
+    /// Which effect the current variant lacks; found once, and kept. Acts don't wait for it.
+    ///
+    /// # Errors
+    /// The scene can't be diagnosed, or another variant is the current one by now.
+    pub fn diagnosis(&self) -> Result<Diagnosis> {
+        let shown = self.shown();
+        let variant = shown.session.tree.current;
+        let further: Vec<_> = shown.session.laws().into_iter().map(shown::request).collect();
+        let effects = shown.session.requests(&self.scene);
+        let options = RefinedOptions { effects, ..RefinedOptions::default() };
+        let diagnosed = || diagnose(&shown.fit.scene, &options, &further);
+        let is_stale = || self.shown().session.tree.current != variant;
+        self.diagnoses.found(variant, further.len(), diagnosed, is_stale)
+    }
+
+    /// The page of the current variant and those that are compared, to be kept; with the diagnosis, if
+    /// it was asked for.
+    ///
+    /// # Errors
+    /// This build has no page.
+    pub fn report_page(&self) -> Result<String> {
+        let shown = self.shown();
+        let mut report = shown.report();
+        let (variant, laws) = (shown.session.tree.current, shown.session.laws().len());
+        report.diagnosis = self.diagnoses.known(variant, laws);
+        report.commands = self.commands();
+        crate::report::page(&report)
+    }
+
+    /// The session's file, as it is saved.
+    ///
+    /// # Errors
+    /// It is too large.
+    pub fn session_json(&self) -> Result<String> {
+        SessionFile::of(&self.shown().session, &self.scene, &self.scene_sha256).to_json()
+    }
+
+    /// Adds the variants of a saved session of the same scene, and goes to the one that it shows. What
+    /// was there stays; so does the draft, unless it is empty.
+    ///
+    /// # Errors
+    /// It is no session of this scene, a model can't be fitted, or the session can't be saved; nothing
+    /// is changed.
+    pub fn open_session(&self, text: &str) -> Result<StudioState> {
+        let opened =
+            SessionFile::parse(text, "the session")?.session(&self.scene, &self.scene_sha256)?;
+        let mut acting = locked(&self.acting);
+        let before = self.shown();
+        let mut session = before.session.clone();
+        session.tree.graft(&opened.tree)?;
+        if session.draft.trim().is_empty() {
+            session.draft = opened.draft;
+        }
+        let after = self.fitted(&mut acting, session, &before)?;
+        let shown = self.show(&mut acting, after)?;
+        Ok(self.state_of(&shown))
+    }
+
+    /// Where the session is saved.
+    pub fn session_file(&self) -> &str {
+        &self.session_file
+    }
+
+    /// `session` with its fits, to come after `before`.
+    fn fitted(&self, acting: &mut Acting, session: Session, before: &Shown) -> Result<Shown> {
+        Shown::new(session, before.revision + 1, &self.scene, &mut acting.fits)
+    }
+
+    /// Saves what is to be seen, and then shows it.
+    fn show(&self, acting: &mut Acting, after: Shown) -> Result<Arc<Shown>> {
+        let file = SessionFile::of(&after.session, &self.scene, &self.scene_sha256);
+        acting.save.write(&file.to_json()?)?;
+        let after = Arc::new(after);
+        *locked(&self.shown) = after.clone();
+        Ok(after)
+    }
+
+    fn state_of(&self, shown: &Shown) -> StudioState {
+        let mut state = shown.state(&self.scene, &self.session_file);
+        state.report.commands = self.commands();
+        state
+    }
+
+    /// What to type to see the same again.
+    fn commands(&self) -> Vec<String> {
+        let (scene, session) = (shell_word(&self.scene_file), shell_word(&self.session_file));
+        vec![format!("smash studio {scene} --session {session}")]
+    }
+
+    fn shown(&self) -> Arc<Shown> {
+        locked(&self.shown).clone()
+    }
+}
+
+/// What a panicked thread left is whole: it is only ever replaced.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

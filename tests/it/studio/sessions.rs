@@ -1,0 +1,160 @@
+//! What was made is saved before it is answered, and opened again as it was.
+
+use std::fs;
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+use super::Running;
+
+const BALL: &str = "thrown_ball_drag.json";
+const LAW: &str = "name = \"lift\"\n[parameters.a]\nunit = \"m/s^2\"\nnull = 0.0\n[law]\nacceleration = \"a * up\"\n";
+
+/// A session with one of everything.
+fn busy(studio: &Running) -> Value {
+    studio.add("quadratic_drag@ball");
+    studio.act(json!({"do": "mark", "body": "ball", "observation": 3, "wrong": true}));
+    studio.act(json!({"do": "time", "body": "ball", "observation": 5, "time": 0.13}));
+    studio.act(json!({"do": "undo"}));
+    studio.act(json!({"do": "noise", "position": 0.002, "orientation": 0.01}));
+    studio.act(json!({"do": "law", "text": LAW, "effect": "lift@ball"}));
+    studio.act(json!({"do": "remove", "effect": "quadratic_drag@ball"}));
+    studio.act(json!({"do": "undo"}));
+    studio.act(json!({"do": "compare", "variant": 1, "shown": true}));
+    studio.post("api/law", &json!({"draft": "name = \"half a la"}).to_string()).json();
+    studio.state()
+}
+
+/// But for the number that only counts what happened.
+fn timeless(mut state: Value) -> Value {
+    state["revision"] = Value::Null;
+    state
+}
+
+#[test]
+fn a_killed_studio_loses_nothing() {
+    let studio = Running::of(BALL);
+    let before = busy(&studio);
+    let after = studio.again().state();
+    assert_eq!(timeless(after), timeless(before));
+}
+
+/// After any act, not only at the end.
+#[test]
+fn each_act_is_in_the_file_when_it_is_answered() {
+    let studio = Running::of(BALL);
+    assert!(!studio.session_path().exists(), "nothing was tried yet");
+    let saved = || -> Value {
+        serde_json::from_str(&fs::read_to_string(studio.session_path()).unwrap()).unwrap()
+    };
+    studio.add("quadratic_drag@ball");
+    assert_eq!(
+        (saved()["variants"].as_array().unwrap().len(), &saved()["current"]),
+        (2, &json!(1))
+    );
+    studio.act(json!({"do": "undo"}));
+    assert_eq!((&saved()["current"], &saved()["variants"][0]["redo"]), (&json!(0), &json!(1)));
+    studio.act(json!({"do": "compare", "variant": 1, "shown": true}));
+    assert_eq!(saved()["compared"], json!([1]));
+    studio.post("api/law", r#"{"draft": "a"}"#).json();
+    assert_eq!(saved()["draft"], "a");
+    // The download is the file.
+    let download = studio.get("api/session");
+    assert_eq!(download.body, fs::read_to_string(studio.session_path()).unwrap());
+    let disposition = download.header("content-disposition").unwrap();
+    assert_eq!(disposition, "attachment; filename=\"thrown_ball_drag.session.json\"");
+    let left: Vec<_> = fs::read_dir(studio.folder.path()).unwrap().collect();
+    assert_eq!(left.len(), 2, "a scene and a session: {left:?}");
+}
+
+#[test]
+fn a_saved_session_opens_in_another_studio_and_adds_to_one() {
+    let studio = Running::of(BALL);
+    let before = busy(&studio);
+    let saved = studio.get("api/session").body;
+    let other = Running::of(BALL);
+    let opened = other.post("api/session", &saved).json();
+    let but_for_the_root = |mut state: Value| {
+        // The base model was fitted here, too, in a time of its own.
+        state["variants"][0]["milliseconds"] = Value::Null;
+        timeless(state)
+    };
+    assert_eq!(but_for_the_root(opened.clone()), but_for_the_root(before));
+    // Again: nothing is doubled.
+    let twice = other.post("api/session", &saved).json();
+    assert_eq!(timeless(twice), timeless(opened.clone()));
+    // What was there stays.
+    let third = Running::of(BALL);
+    third.add("gravity_scale");
+    third.post("api/law", r#"{"draft": "mine"}"#).json();
+    let both = third.post("api/session", &saved).json();
+    let count = |state: &Value| state["variants"].as_array().unwrap().len();
+    assert_eq!(count(&both), count(&opened) + 1);
+    assert_eq!(both["variants"][1]["did"], "+ gravity_scale");
+    assert_eq!(both["draft"], "mine");
+    let numbers = |state: &Value| {
+        let current = state["current"].as_u64().unwrap() as usize;
+        state["variants"][current]["position_rmse"].clone()
+    };
+    assert_eq!(numbers(&both), numbers(&opened));
+    assert_eq!(timeless(third.again().state()), timeless(both));
+}
+
+#[test]
+fn another_scene_s_session_is_refused() {
+    let studio = Running::of(BALL);
+    studio.add("quadratic_drag@ball");
+    let saved = studio.get("api/session").body;
+    let other = Running::of("ball_on_floor.json");
+    let answer = other.post("api/session", &saved);
+    assert_eq!(answer.status, 409);
+    let error = &answer.value()["error"];
+    assert_eq!(error["place"], "scene");
+    assert!(error["mend"].as_str().unwrap().contains("its own scene"), "{error}");
+    // The scene's file has changed.
+    let folder = studio.killed();
+    let path = folder.path().join(BALL);
+    fs::write(&path, fs::read_to_string(&path).unwrap().replace("9.81", "9.8")).unwrap();
+    fs::write(&path, fs::read_to_string(&path).unwrap() + "\n").unwrap();
+    let told = Running::refusal(folder, BALL);
+    assert!(told.contains("thrown_ball_drag.session.json: scene: is another one"), "{told}");
+    assert!(told.contains("--session FILE"), "{told}");
+}
+
+/// Two studios on one file: the second one's act doesn't overwrite the first one's.
+#[test]
+fn what_another_program_saved_is_not_overwritten() {
+    let studio = Running::of(BALL);
+    studio.add("quadratic_drag@ball");
+    let others = fs::read_to_string(studio.session_path())
+        .unwrap()
+        .replace("\"draft\": \"\"", "\"draft\": \"x\"");
+    fs::write(studio.session_path(), &others).unwrap();
+    let error = studio.refused(json!({"do": "undo"}));
+    assert!(error["problem"].as_str().unwrap().contains("another program"), "{error}");
+    assert_eq!(fs::read_to_string(studio.session_path()).unwrap(), others);
+    // One that was taken away is made again.
+    fs::remove_file(studio.session_path()).unwrap();
+    studio.act(json!({"do": "undo"}));
+    assert!(studio.session_path().exists());
+}
+
+#[test]
+fn an_act_that_cannot_be_saved_changes_nothing() {
+    let studio = Running::of(BALL);
+    studio.add("quadratic_drag@ball");
+    fs::remove_file(studio.session_path()).unwrap();
+    fs::create_dir(studio.session_path()).unwrap();
+    let error = studio.refused(json!({"do": "undo"}));
+    assert!(error["mend"].is_string(), "{error}");
+}
+
+/// Ctrl-C ends it at once, with nothing left undone.
+#[test]
+fn an_interrupt_ends_it_cleanly() {
+    let mut studio = Running::of(BALL);
+    studio.add("quadratic_drag@ball");
+    let pid = studio.pid().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    assert_eq!(studio.ended(), Some(0));
+}
