@@ -1,57 +1,14 @@
-// The data of the studio, smash.studio/1, by hand until `smash schema studio` is there.
+// The data of the studio, smash.studio/1, under the page's names; the types are made from the
+// program's own schema. What is sent there is small, and written by hand.
 
+import type { CatalogueEffect, LawView, SmashStudio1, VariantView } from './generated/studio';
 import type { Report } from './report';
 
-export interface Variant {
-  id: number;
-  parent: number | null;
-  did: string;
-  effects: string[];
-  position_rmse: number;
-  orientation_rmse: number | null;
-  reduced_chi2: number | null;
-  chi2: number | null;
-  mass_ratio: number | null;
-  restitution: number | null;
-  milliseconds: number;
-}
-
-export interface CatalogueEffect {
-  name: string;
-  title: string;
-  looks_like: string;
-  tell_apart: string;
-  labels: string[];
-}
-
-export interface OwnLaw {
-  name: string;
-  text: string;
-  labels: string[];
-}
-
-export interface Edits {
-  marked: { body: string; observation: number }[];
-  times: { body: string; observation: number; time: number }[];
-  noise: { position: number; orientation: number } | null;
-}
-
-export interface StudioState {
-  schema: 'smash.studio/1';
-  revision: number;
-  session_file: string;
-  current: number;
-  undo: number | null;
-  redo: number | null;
-  variants: Variant[];
-  compared: number[];
-  edits: Edits;
-  catalogue: CatalogueEffect[];
-  laws: OwnLaw[];
-  draft: string;
-  report: Report;
-}
-
+/** The report is that of the other schema: one type for both pages. */
+export type StudioState = Omit<SmashStudio1, 'report'> & { report: Report };
+export type Variant = VariantView;
+export type OwnLaw = LawView;
+export type { CatalogueEffect };
 export type Action =
   | { do: 'add'; effect: string }
   | { do: 'remove'; effect: string }
