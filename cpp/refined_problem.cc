@@ -36,8 +36,8 @@ constexpr int kFinest = 16;
 // Of one flight with effects: what takes more is a spin on its way beyond all numbers.
 constexpr double kMostEffectSteps = 2e4;
 
-// Ends the search where the collision time stays at an end of its segment: there steps are short, and
-// most often lead nowhere, since the optimum is in the next segment.
+// Ends the search where the collision time stays at an end of its segment: there steps are short,
+// and most often lead nowhere, since the optimum is in the next segment.
 class StaysAtAnEnd : public ceres::IterationCallback {
  public:
   StaysAtAnEnd(const RefinedProblem& problem, const double* time_s)
@@ -46,9 +46,8 @@ class StaysAtAnEnd : public ceres::IterationCallback {
   ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
     const bool is_at_an_end = *time_s_ <= problem_.earliest_s || *time_s_ >= problem_.latest_s;
     iterations_ = is_at_an_end ? iterations_ + 1 : 0;
-    return iterations_ < problem_.most_iterations_at_an_end
-               ? ceres::SOLVER_CONTINUE
-               : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    return iterations_ < problem_.most_iterations_at_an_end ? ceres::SOLVER_CONTINUE
+                                                            : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
  private:
