@@ -237,6 +237,37 @@ test('two browsers see the same', () =>
     await other.close();
   }));
 
+test('an answer that an act has overtaken shows nothing old', () =>
+  tried(async (page) => {
+    let letGo;
+    const isDone = new Promise((resolve) => {
+      letGo = resolve;
+    });
+    // The poll reads the state before the act, and answers after it.
+    const isRead = new Promise((resolve) => {
+      void page.route(
+        '**/api/state',
+        async (route) => {
+          const response = await route.fetch();
+          resolve();
+          await isDone;
+          await route.fulfill({ response });
+        },
+        { times: 1 },
+      );
+    });
+    await isRead;
+    await page.getByTestId('add-quadratic_drag@ball').click();
+    await shows(page, WITH_DRAG);
+    const late = page.waitForResponse('**/api/state');
+    letGo();
+    await (await late).finished();
+    // Two frames later it would be seen.
+    await page.evaluate(() => new Promise((seen) => requestAnimationFrame(() => requestAnimationFrame(seen))));
+    await shows(page, WITH_DRAG);
+    assert.match(await rmse(page), WITH_DRAG);
+  }));
+
 test('a killed studio is announced, and started again has all', async () => {
   const file = scene('thrown_ball_drag');
   const studio = await served(file);

@@ -62,8 +62,9 @@ export class Studio {
 
   private take(state: StudioState): void {
     this.answered();
-    // An answer that was overtaken says less than what is shown.
-    if (state.revision >= this.state.value.revision) this.state.set(state);
+    // An answer that was overtaken says less than what is shown. A server that was started anew, and
+    // counts anew, has another address.
+    if (state.revision > this.state.value.revision) this.state.set(state);
   }
 
   /** What any request's failure means for the connection. */
@@ -90,10 +91,7 @@ export class Studio {
   private async poll(): Promise<void> {
     const wasAway = this.connection.value !== 'there';
     try {
-      const state = await api.state();
-      // An act that is under way brings a newer one. A server that was started anew counts anew.
-      if (this.busy.value === 0 && state.revision !== this.state.value.revision) this.state.set(state);
-      this.answered();
+      this.take(await api.state());
     } catch (error) {
       const longer = Math.min(2 * this.wait, LONGEST_WAIT_MS);
       this.heed(error);
