@@ -263,9 +263,47 @@ test('an answer that an act has overtaken shows nothing old', () =>
     letGo();
     await (await late).finished();
     // Two frames later it would be seen.
-    await page.evaluate(() => new Promise((seen) => requestAnimationFrame(() => requestAnimationFrame(seen))));
+    await page.evaluate(
+      () => new Promise((seen) => requestAnimationFrame(() => requestAnimationFrame(seen))),
+    );
     await shows(page, WITH_DRAG);
     assert.match(await rmse(page), WITH_DRAG);
+  }));
+
+test('a window that is behind leaves the law that another one types', () =>
+  tried(async (page, studio) => {
+    const text = page.getByTestId('law-text');
+    const sent = async (law) => {
+      const answer = page.waitForResponse(
+        (response) => response.url().endsWith('api/law') && response.request().postDataJSON().draft === law,
+      );
+      await text.fill(law);
+      await answer;
+    };
+    await sent('name = "older');
+    const other = await opened(studio.address);
+    const posts = [];
+    other.page.on('request', (request) => {
+      if (request.url().endsWith('api/law')) posts.push(request.postDataJSON().draft);
+    });
+    const theirs = other.page.getByTestId('law-text');
+    assert.equal(await theirs.inputValue(), 'name = "older');
+    await other.page.route('**/api/**', (route) => route.abort('connectionrefused'));
+    await other.page.getByTestId('banner').waitFor({ state: 'visible' });
+    await sent('name = "newer');
+    await other.page.unroute('**/api/**');
+    await other.page.getByTestId('banner').waitFor({ state: 'hidden' });
+    await until(
+      () => theirs.inputValue(),
+      (law) => law === 'name = "newer',
+      'the law',
+    );
+    assert.deepEqual(posts, []);
+    // Who takes it up is told what is wrong.
+    await theirs.focus();
+    await other.page.getByTestId('mistake').waitFor();
+    assert.deepEqual(posts, ['name = "newer']);
+    await other.close();
   }));
 
 test('a killed studio is announced, and started again has all', async () => {

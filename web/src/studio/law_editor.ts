@@ -14,7 +14,10 @@ const PAUSE_MS = 180;
 
 export class LawEditor {
   readonly root: HTMLElement;
-  private readonly text = new LawText(() => this.typed());
+  private readonly text = new LawText(
+    () => this.typed(),
+    () => this.takeUp(),
+  );
   private readonly verdict = element('div', {
     class: 'law-verdict',
     role: 'status',
@@ -27,6 +30,8 @@ export class LawEditor {
   private readonly store: DraftStore;
   private timer = 0;
   private checked: { text: string; law: CheckedLaw } | null = null;
+  /** Typed here, and the server doesn't have it yet. Another text may be older than the server's. */
+  private isUnsent = false;
 
   constructor(private readonly studio: Studio) {
     this.store = new DraftStore(`smash-law:${studio.state.value.report.scene.name}`);
@@ -76,7 +81,7 @@ export class LawEditor {
     this.restore(studio.state.value);
     studio.state.watch((state) => this.refresh(state));
     studio.connection.watch((connection) => {
-      if (connection === 'there') void this.check();
+      if (connection === 'there' && this.isUnsent) void this.check();
     });
   }
 
@@ -90,18 +95,39 @@ export class LawEditor {
   /** What the server never got is worth more than what it has. */
   private restore(state: StudioState): void {
     const kept = this.store.read();
-    this.text.value = kept !== null && !kept.isSent ? kept.text : state.draft;
+    this.isUnsent = kept !== null && !kept.isSent;
+    if (kept !== null && this.isUnsent) this.text.value = kept.text;
+    else this.show(state.draft);
   }
 
   /** Another browser may have typed; not while one types here. */
   private refresh(state: StudioState): void {
-    const isSent = this.checked?.text === this.text.value;
-    if (!isSent || this.text.isFocused || state.draft === this.text.value) return;
-    this.text.value = state.draft;
-    void this.check();
+    const isOlder = state.revision < (this.checked?.law.revision ?? 0);
+    if (this.isUnsent || isOlder || this.text.isFocused || state.draft === this.text.value) return;
+    this.show(state.draft);
+  }
+
+  /** The server's text, which is checked when someone takes it up. */
+  private show(draft: string): void {
+    this.text.value = draft;
+    this.checked = null;
+    this.button.disabled = true;
+    this.place.hidden = true;
+    const isEmpty = draft.trim() === '';
+    refill(
+      this.verdict,
+      element('p', { class: 'hint' }, isEmpty ? 'Nothing typed yet.' : 'Click into the law to check it.'),
+    );
+  }
+
+  /** Only if it is what the server has, as far as is known. */
+  private takeUp(): void {
+    const isServers = this.text.value === this.studio.state.value.draft;
+    if (this.checked === null && isServers && !this.isUnsent) void this.check();
   }
 
   private typed(): void {
+    this.isUnsent = true;
     this.store.write({ text: this.text.value, isSent: false });
     this.button.disabled = true;
     clearTimeout(this.timer);
@@ -114,8 +140,9 @@ export class LawEditor {
       const law = await api.law(text);
       // Overtaken by what was typed since.
       if (text !== this.text.value) return;
+      const isNew = this.isUnsent && this.checked?.text !== text;
+      this.isUnsent = false;
       this.store.write({ text, isSent: true });
-      const isNew = this.checked?.text !== text;
       this.checked = { text, law };
       this.line.clear();
       this.tell(text, law);

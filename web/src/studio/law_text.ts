@@ -9,7 +9,7 @@ export class LawText {
   private readonly field: HTMLTextAreaElement;
   private readonly copy = element('div', { class: 'law-copy', 'aria-hidden': 'true' });
 
-  constructor(typed: () => void) {
+  constructor(typed: () => void, takenUp: () => void) {
     this.field = element('textarea', {
       rows: 16,
       spellcheck: 'false',
@@ -18,6 +18,7 @@ export class LawText {
       wrap: 'off',
       'aria-label': 'The law, TOML',
       'data-testid': 'law-text',
+      onfocus: takenUp,
       oninput: () => {
         this.mark([]);
         typed();
