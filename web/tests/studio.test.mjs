@@ -176,6 +176,12 @@ test('a pose is marked and taken back, moved in time and put back, and noise is 
       'the refusal',
     );
     assert.match(told.join(' '), /isn't between the poses before and after/);
+    const moved = (parseFloat(own) + next) / 2;
+    await until(
+      () => page.getByTestId('time-ball-3').inputValue(),
+      (value) => Math.abs(parseFloat(value) - moved) < 1e-6,
+      'the time',
+    );
 
     await page.getByTestId('noise-position').fill('2');
     await page.getByTestId('noise-state').click();

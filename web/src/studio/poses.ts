@@ -5,7 +5,7 @@ import type { Child } from '../element';
 import { DEGREES, fixed, significant } from '../numbers';
 import type { Maybe } from '../numbers';
 import type { Body } from '../report';
-import type { StudioState } from '../studio_state';
+import type { Action, StudioState } from '../studio_state';
 import { table } from '../table';
 import { ErrorLine } from './error_line';
 import type { Studio } from './studio';
@@ -157,10 +157,12 @@ export class Poses {
       'aria-label': `Time of pose ${index} of ${body.name}, s`,
       value: fixed(body.observations[index].time, 6).replace('−', '-'),
       onchange: () =>
-        void this.studio.act(
-          { do: 'time', body: body.name, observation: index, time: time.valueAsNumber },
-          this.line,
-        ),
+        void this.change(time, {
+          do: 'time',
+          body: body.name,
+          observation: index,
+          time: time.valueAsNumber,
+        }),
     });
     const wrong = element('input', {
       type: 'checkbox',
@@ -169,10 +171,12 @@ export class Poses {
       checked: state.edits.marked.some(is),
       'aria-label': `Pose ${index} of ${body.name} is wrong`,
       onchange: () =>
-        void this.studio.act(
-          { do: 'mark', body: body.name, observation: index, wrong: wrong.checked },
-          this.line,
-        ),
+        void this.change(wrong, {
+          do: 'mark',
+          body: body.name,
+          observation: index,
+          wrong: wrong.checked,
+        }),
     });
     const isMoved = state.edits.times.some(is);
     return [
@@ -181,6 +185,13 @@ export class Poses {
       farthest(state, body.name, index),
       wrong,
     ];
+  }
+
+  /** After a refusal the field shows again what it was made with. */
+  private async change(field: HTMLInputElement, action: Action): Promise<void> {
+    if (await this.studio.act(action, this.line)) return;
+    field.value = field.defaultValue;
+    field.checked = field.defaultChecked;
   }
 }
 
