@@ -182,6 +182,18 @@ test('numbers and plots are saved as files', () =>
     assert.match((await saved(page, 'save-ladder')).bytes.toString(), /held out/);
   }));
 
+test('a poor fit is a doubt, except where the diagnosis of that model explains it', () =>
+  looked(
+    changed(report, 'poor.html', (data) => {
+      for (const model of data.models) model.result.flags = ['poor_fit'];
+    }),
+    async (page) => {
+      assert.equal(await page.getByTestId('flags').count(), 0);
+      await page.getByTestId('model-1').check();
+      await page.getByTestId('flags').waitFor();
+    },
+  ));
+
 test('the commands that make it again can be copied', () =>
   looked(report, async (page) => {
     const commands = await page.getByTestId('commands').textContent();

@@ -16,14 +16,7 @@ export function summary(report: Report, model: Model | null): HTMLElement[] {
 
 /** In one sentence whether the model fits, in another what is missing. */
 function verdict(report: Report, model: Model): HTMLElement {
-  const { diagnosis, improvement } = report;
-  // The diagnosis fits for itself: it says nothing of what the paper's method made of the poses.
-  const isRefined = model.result.preset === 'refined';
-  const missing = !isRefined
-    ? null
-    : diagnosis && hasEffects(model, diagnosis.model.map(label))
-      ? diagnosis.explanation
-      : ofLadder(improvement, model);
+  const missing = diagnosisOf(report, model)?.explanation ?? ofLadder(report.improvement, model);
   const fits = fit(report, model);
   return element(
     'div',
@@ -34,10 +27,17 @@ function verdict(report: Report, model: Model): HTMLElement {
   );
 }
 
+/** The diagnosis fits for itself: it says nothing of other models, nor of the paper's method. */
+function diagnosisOf({ diagnosis }: Report, model: Model): Report['diagnosis'] {
+  if (!diagnosis || model.result.preset !== 'refined') return null;
+  return hasEffects(model, diagnosis.model.map(label)) ? diagnosis : null;
+}
+
 /** What the ladder says of its last model. */
 function ofLadder(improvement: Report['improvement'], model: Model): string | null {
   const last = improvement?.ladder.at(-1);
-  if (!last || !improvement || !hasEffects(model, last.with)) return null;
+  const isRefined = model.result.preset === 'refined';
+  if (!last || !improvement || !isRefined || !hasEffects(model, last.with)) return null;
   return improvement.verdict === 'unknown_effect'
     ? 'Something is left that no effect of the catalogue explains.'
     : 'Nothing more is missing that these poses could show.';
@@ -112,7 +112,7 @@ function estimate(value: Estimate, unit: string): string {
 
 function flags(report: Report, model: Model): HTMLElement[] {
   // Where the diagnosis names what is missing, the fit's being poor is no further doubt.
-  const isExplained = report.diagnosis?.verdict === 'missing';
+  const isExplained = diagnosisOf(report, model)?.verdict === 'missing';
   const left = model.result.flags.filter((flag) => flag !== 'poor_fit' || !isExplained);
   if (left.length === 0) return [];
   const items = left.map((flag) => {
