@@ -22,9 +22,9 @@ export class Clock {
     const isAtImpact = this.poses.length === 0 || this.time.value === this.impact;
     this.poses = [...new Set(poses)].sort((a, b) => a - b);
     this.impact = impact;
-    const all = impact === null ? this.poses : [...this.poses, impact];
-    this.start = Math.min(...all);
-    this.end = Math.max(...all);
+    const [first, last] = [this.poses[0] ?? 0, this.poses.at(-1) ?? 1];
+    this.start = Math.min(first, impact ?? first);
+    this.end = Math.max(last, impact ?? last);
     if (this.poses.length === 0) [this.start, this.end] = [0, 1];
     this.span.set(this.span.value + 1);
     this.go(isAtImpact ? (impact ?? this.start) : this.time.value);

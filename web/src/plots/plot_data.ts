@@ -98,7 +98,7 @@ function findings(tests: ChannelTest[]): string {
 
 /** Even about zero, with room, and never tighter than the band. */
 function range(values: number[], sigma: number | null): [number, number] {
-  const largest = Math.max(...values.map(Math.abs), 2.6 * (sigma ?? 0));
+  const largest = values.reduce((most, value) => Math.max(most, Math.abs(value)), 2.6 * (sigma ?? 0));
   const half = largest > 0 && Number.isFinite(largest) ? 1.12 * largest : 1;
   return [-half, half];
 }

@@ -58,9 +58,16 @@ function drawn(data: PlotData, frame: Frame, explanation: SVGElement[]): SVGSVGE
       words(`${short(time)} s`, { x: x(time), y: frame.bottom + 16, 'text-anchor': 'middle' }),
     ),
     data.impact === null ? null : impactLine(x(data.impact), frame),
-    ...data.points.map((point) => mark(point, x(point.time), y(point.value))),
+    marks(data.points, x, y),
     ...explanation,
   );
+}
+
+/** One by one: of a long film there are more than a call takes arguments. */
+function marks(points: PlotPoint[], x: (time: number) => number, y: (value: number) => number): SVGElement {
+  const made = svg('g');
+  for (const point of points) made.append(mark(point, x(point.time), y(point.value)));
+  return made;
 }
 
 function words(text: string, at: Record<string, string | number>): SVGElement {

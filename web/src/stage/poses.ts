@@ -39,7 +39,7 @@ export class Poses extends Group {
   }
 
   showAt(time: number): void {
-    const nearest = Math.min(...this.drawn.map((pose) => Math.abs(pose.time - time)));
+    const nearest = this.drawn.reduce((least, pose) => Math.min(least, Math.abs(pose.time - time)), Infinity);
     for (const pose of this.drawn) {
       const isNear = Math.abs(pose.time - time) <= nearest;
       pose.lines.material = isNear ? this.strong : pose.isOff ? this.marked : this.ordinary;
