@@ -5,6 +5,7 @@ import { singleOutliers } from '../outliers';
 import type { Model, Scene } from '../report';
 import { Arrow } from './arrow';
 import { Differences } from './differences';
+import { dispose } from './dispose';
 import { reach } from './extent';
 import { Floor } from './floor';
 import type { Palette } from './palette';
@@ -66,6 +67,7 @@ export class Collision extends Group {
 
   /** Draws what the model misses `times` as large; 0 hides it. */
   exaggerate(times: number): void {
+    for (const old of this.differences) dispose(old);
     this.remove(...this.differences);
     this.differences = [];
     const motion = this.model?.motion;

@@ -2,23 +2,21 @@
 
 import {
   AmbientLight,
-  BufferGeometry,
   Color,
   DirectionalLight,
   HemisphereLight,
-  Material,
   PerspectiveCamera,
   Scene as World,
   Sphere,
   Vector3,
   WebGLRenderer,
 } from 'three';
-import type { Object3D } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { element } from '../element';
 import type { Model, Scene } from '../report';
 import { Collision } from './collision';
 import type { Layer } from './collision';
+import { dispose } from './dispose';
 import { extent, reach } from './extent';
 import { palette } from './palette';
 import { Tags } from './tags';
@@ -193,12 +191,4 @@ export class Stage {
     this.renderer.render(this.world, this.camera);
     this.tags.place(this.camera, (layer) => this.collision?.isShown(layer) ?? false);
   }
-}
-
-function dispose(group: Object3D): void {
-  group.traverse((part) => {
-    const { geometry, material } = part as { geometry?: BufferGeometry; material?: Material };
-    geometry?.dispose();
-    material?.dispose();
-  });
 }
