@@ -176,7 +176,7 @@ test('numbers and plots are saved as files', () =>
     assert.equal(svg.name, 'residuals_ball_along_its_path.svg');
     assert.match(svg.bytes.toString(), /^<\?xml[^]*<svg[^]*±2 σ = ±2\.00 mm[^]*<\/svg>/);
     assert.doesNotMatch(svg.bytes.toString(), /style=|<script/);
-    for (const test of ['save-png', 'save-stage']) {
+    for (const test of ['save-png', 'save-ladder-png', 'save-stage']) {
       assert.equal((await saved(page, test)).bytes.subarray(1, 4).toString(), 'PNG');
     }
     assert.match((await saved(page, 'save-ladder')).bytes.toString(), /held out/);

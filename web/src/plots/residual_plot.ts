@@ -12,6 +12,7 @@ import type { PlotData, PlotPoint } from './plot_data';
 import { pointInWords } from './plot_data';
 import { Pointer } from './pointer';
 import type { PoseActs } from './pose_acts';
+import { savers } from './savers';
 import { barePlot, plotFile } from './svg_plot';
 
 const HEIGHT = 132;
@@ -98,23 +99,13 @@ export class ResidualPlot {
 
   private savers(): HTMLElement {
     const name = (ending: string): string => `residuals_${this.data.title}.${ending}`;
-    const button = (words: string, test: string, act: () => void): HTMLElement =>
-      element(
-        'button',
-        {
-          type: 'button',
-          class: 'small',
-          'data-testid': test,
-          'aria-label': `Save this plot as ${words}`,
-          onclick: act,
-        },
-        words,
-      );
-    return element(
-      'span',
-      { class: 'savers' },
-      button('SVG', 'save-svg', () => save(name('svg'), 'image/svg+xml', svgFile(plotFile(this.data)))),
-      button('PNG', 'save-png', () => saveCanvas(this.plot.ctx.canvas, name('png'))),
+    return savers(
+      {
+        format: 'SVG',
+        test: 'save-svg',
+        save: () => save(name('svg'), 'image/svg+xml', svgFile(plotFile(this.data))),
+      },
+      { format: 'PNG', test: 'save-png', save: () => saveCanvas(this.plot.ctx.canvas, name('png')) },
     );
   }
 

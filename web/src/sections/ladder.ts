@@ -4,7 +4,8 @@ import { element } from '../element';
 import type { Child } from '../element';
 import { angle, length, pValue, significant } from '../numbers';
 import type { Improvement, Rung } from '../report';
-import { save } from '../save';
+import { savers } from '../plots/savers';
+import { save, saveImage } from '../save';
 import { svgFile } from '../svg';
 import { table } from '../table';
 import { ladderPlot } from './ladder_plot';
@@ -27,20 +28,17 @@ export function ladder(improvement: Improvement): Child[] {
         'figcaption',
         {},
         element('span', { class: 'plot-title' }, 'Error by rung, relative to the start'),
-        element(
-          'span',
-          { class: 'savers' },
-          element(
-            'button',
-            {
-              type: 'button',
-              class: 'small',
-              'aria-label': 'Save this plot as SVG',
-              'data-testid': 'save-ladder',
-              onclick: () => save('ladder.svg', 'image/svg+xml', svgFile(ladderPlot(improvement.ladder))),
-            },
-            'SVG',
-          ),
+        savers(
+          {
+            format: 'SVG',
+            test: 'save-ladder',
+            save: () => save('ladder.svg', 'image/svg+xml', svgFile(ladderPlot(improvement.ladder))),
+          },
+          {
+            format: 'PNG',
+            test: 'save-ladder-png',
+            save: () => void saveImage(ladderPlot(improvement.ladder), 'ladder.png'),
+          },
         ),
       ),
       plot,
