@@ -146,7 +146,7 @@ export class LawEditor {
       this.checked = { text, law };
       this.line.clear();
       this.tell(text, law);
-      if (isNew && this.atOnce.checked && law.effect !== null) await this.putIn();
+      if (isNew && this.atOnce.checked && law.effect) await this.putIn();
     } catch (error) {
       this.line.tell(error);
       this.studio.heed(error);
@@ -157,7 +157,7 @@ export class LawEditor {
     const isEmpty = text.trim() === '';
     const found = isEmpty ? [] : law.mistakes;
     this.text.mark(found);
-    this.button.disabled = law.effect === null;
+    this.button.disabled = !law.effect;
     const chosen = this.place.value;
     const labels = law.effect?.labels ?? [];
     refill(

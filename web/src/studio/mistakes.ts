@@ -14,7 +14,7 @@ export function mistakes(text: string, all: Mistake[]): HTMLElement[] {
       { class: 'mistake', 'data-testid': 'mistake' },
       element('p', { class: 'label' }, `Line ${mistake.line}`),
       element('pre', {}, `${line}\n${caret}`),
-      element('p', {}, sentence(mistake.problem + (mistake.mend === null ? '' : `; ${mistake.mend}`))),
+      element('p', {}, sentence(mistake.problem + (!mistake.mend ? '' : `; ${mistake.mend}`))),
     );
   });
 }
