@@ -193,6 +193,95 @@ test('a pose is marked and taken back, moved in time and put back, and noise is 
     );
   }));
 
+/** The first residual plot: where a time and a residual in mm are on the screen, and its poses. */
+async function firstPlot(page) {
+  const plot = page.getByTestId('residual-plot').first();
+  const over = plot.locator('.u-over');
+  await over.evaluate((one) => one.scrollIntoView({ block: 'center' }));
+  const box = await over.boundingBox();
+  const { report } = await page.evaluate(async () => (await fetch('api/state')).json());
+  const key = await plot.getAttribute('data-key');
+  const series = report.models[0].series.find((one) => `${one.body}/${one.axis}` === key);
+  const poses = series.points.map(({ time, value }) => ({ time, value: 1000 * value }));
+  const sigma = 1000 * series.sigma;
+  // As the plot is scaled: all times with 3 % around them, and zero in the middle.
+  const times = report.scene.bodies.flatMap((body) => body.observations.map((pose) => pose.time));
+  const [start, span] = [Math.min(...times), Math.max(...times) - Math.min(...times)];
+  const half = 1.12 * Math.max(...poses.map((pose) => Math.abs(pose.value)), 2.6 * sigma);
+  return {
+    poses,
+    sigma,
+    // A mouse is where a pixel is.
+    pixel: { s: (1.06 * span) / box.width, mm: (2 * half) / box.height },
+    at: (time, value) => [
+      box.x + (box.width * ((time - start) / span + 0.03)) / 1.06,
+      box.y + (box.height * (1 - value / half)) / 2,
+    ],
+  };
+}
+
+/** What the list of the ball's poses says is changed. */
+const changes = (page, pattern) =>
+  until(
+    () => page.getByTestId('poses-ball').locator('summary').textContent(),
+    (text) => pattern.test(text),
+    'the poses',
+  );
+
+test('a click in a plot marks a pose, another one takes it back', () =>
+  tried(async (page) => {
+    await page.getByTestId('mode-mark').check();
+    const click = async () => {
+      const { poses, at } = await firstPlot(page);
+      await page.mouse.click(...at(poses[3].time, poses[3].value));
+    };
+    await click();
+    await changes(page, /poses, 1 marked wrong$/);
+    await page.getByTestId('poses-ball').locator('summary').click();
+    assert.equal(await page.getByTestId('wrong-ball-3').isChecked(), true);
+    await click();
+    await changes(page, /poses$/);
+  }));
+
+test('a pose is dragged to another time, unless Esc leaves it', () =>
+  tried(async (page) => {
+    await page.getByTestId('mode-time').check();
+    const { poses, at, pixel } = await firstPlot(page);
+    const [own, next] = [poses[3], poses[4]];
+    const aim = (own.time + next.time) / 2;
+    const drag = async () => {
+      await page.mouse.move(...at(own.time, own.value));
+      await page.mouse.down();
+      await page.mouse.move(...at(aim, own.value));
+    };
+    await drag();
+    await page.keyboard.press('Escape');
+    await page.mouse.up();
+    await drag();
+    await page.getByText(/pose 3 from .* Esc leaves it/).waitFor();
+    await page.mouse.up();
+    await changes(page, /poses, 1 at another time$/);
+    await page.getByTestId('poses-ball').locator('summary').click();
+    const moved = parseFloat(await page.getByTestId('time-ball-3').inputValue());
+    assert.ok(Math.abs(moved - aim) <= pixel.s, `${moved} s, not ${aim} s`);
+    assert.equal(await page.getByTestId('variant-2').count(), 0, 'Esc made no variant');
+  }));
+
+test('the band of a plot is dragged to another noise', () =>
+  tried(async (page) => {
+    await page.getByTestId('mode-noise').check();
+    const { poses, sigma, at, pixel } = await firstPlot(page);
+    const middle = (poses[0].time + poses[1].time) / 2;
+    await page.mouse.move(...at(middle, 2 * sigma));
+    await page.mouse.down();
+    await page.mouse.move(...at(middle, 8 * sigma));
+    await page.mouse.up();
+    await page.getByTestId('noise-reset').waitFor();
+    const stated = parseFloat(await page.getByTestId('noise-position').inputValue());
+    // The band is two σ wide.
+    assert.ok(Math.abs(stated - 4 * sigma) <= pixel.mm / 2, `${stated} mm, not ${4 * sigma} mm`);
+  }));
+
 test('a saved session opens in another studio, and the report needs none', () =>
   tried(async (page, studio, file) => {
     await page.getByTestId('add-quadratic_drag@ball').click();
@@ -245,35 +334,26 @@ test('two browsers see the same', () =>
 
 test('an answer that an act has overtaken shows nothing old', () =>
   tried(async (page) => {
-    let letGo;
-    const isDone = new Promise((resolve) => {
-      letGo = resolve;
-    });
-    // The poll reads the state before the act, and answers after it.
-    const isRead = new Promise((resolve) => {
-      void page.route(
-        '**/api/state',
-        async (route) => {
-          const response = await route.fetch();
-          resolve();
-          await isDone;
-          await route.fulfill({ response });
-        },
-        { times: 1 },
+    const polls = [];
+    const nextPoll = () =>
+      until(
+        () => polls.shift(),
+        (poll) => poll !== undefined,
+        'the poll',
       );
+    await page.route('**/api/state', async (route) => {
+      const response = await route.fetch();
+      polls.push(() => route.fulfill({ response }));
     });
-    await isRead;
+    // It reads the state before the act, and answers after it.
+    const answer = await nextPoll();
     await page.getByTestId('add-quadratic_drag@ball').click();
     await shows(page, WITH_DRAG);
-    const late = page.waitForResponse('**/api/state');
-    letGo();
-    await (await late).finished();
-    // Two frames later it would be seen.
-    await page.evaluate(
-      () => new Promise((seen) => requestAnimationFrame(() => requestAnimationFrame(seen))),
-    );
-    await shows(page, WITH_DRAG);
+    await answer();
+    // The page asks again once it has taken that answer in.
+    const again = await nextPoll();
     assert.match(await rmse(page), WITH_DRAG);
+    await again();
   }));
 
 test('a window that is behind leaves the law that another one types', () =>
