@@ -61,18 +61,22 @@ export class Timeline {
   repaint(): void {
     const { clock, scene } = this;
     const at = (time: number): number => ((time - clock.start) / (clock.end - clock.start || 1)) * STEPS;
-    const ticks = (scene?.bodies ?? []).flatMap((body, row) =>
-      body.observations.map((pose) => {
+    this.marks.replaceChildren();
+    (scene?.bodies ?? []).forEach((body, row) => {
+      const y = row === 0 ? 1 : 13;
+      // Of a long film, where ticks lie on each other, one is enough.
+      let last = -1;
+      for (const pose of body.observations) {
+        const x = at(pose.time);
+        if (x - last < 0.25) continue;
+        last = x;
         const side = clock.impact === null || pose.time <= clock.impact ? 'before' : 'after';
-        const [x, y] = [at(pose.time), row === 0 ? 1 : 13];
-        return svg('line', { x1: x, x2: x, y1: y, y2: y + 10, class: `tick ${side}` });
-      }),
-    );
-    const impact =
-      clock.impact === null
-        ? []
-        : [svg('line', { x1: at(clock.impact), x2: at(clock.impact), y1: 0, y2: 24, class: 'tick impact' })];
-    this.marks.replaceChildren(...ticks, ...impact);
+        this.marks.append(svg('line', { x1: x, x2: x, y1: y, y2: y + 10, class: `tick ${side}` }));
+      }
+    });
+    if (clock.impact === null) return;
+    const x = at(clock.impact);
+    this.marks.append(svg('line', { x1: x, x2: x, y1: 0, y2: 24, class: 'tick impact' }));
   }
 
   private buttons(): HTMLElement {
