@@ -7,7 +7,7 @@ use smash::effect::EffectRequest;
 use smash::files::{Output, display_name, print_bytes, shell_word};
 use smash::improve::Improvement;
 use smash::reconstruct::{Options, Preset, RefinedOptions};
-use smash::report::{page, report};
+use smash::report::{page, report, require_page};
 use smash::{Reconstruction, Result, Scene, diagnose, improve, reconstruct};
 
 use super::typed::Typed;
@@ -36,6 +36,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let inputs: Vec<&Path> =
         arguments.results.iter().chain([&arguments.scene]).map(PathBuf::as_path).collect();
+    require_page()?;
     let output = Output::check(&arguments.output, &inputs)?;
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());

@@ -15,7 +15,7 @@ pub use document::{
     BodyView, CameraView, ModelView, ObservationView, PlaneView, REPORT_SCHEMA, Report, SceneView,
     Versions,
 };
-pub use page::{has_page, page};
+pub use page::{has_page, page, require_page};
 
 use crate::compare::{compare, series};
 use crate::diagnose::Diagnosis;
