@@ -19,5 +19,9 @@ const OPENER: &[&str] = if cfg!(target_os = "macos") {
 pub fn open(page: &str) -> io::Result<()> {
     let mut command = Command::new(OPENER[0]);
     command.args(&OPENER[1..]).arg(page);
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map(drop)
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn()?;
+    // Whoever doesn't ask how it ended keeps it as a zombie.
+    std::thread::spawn(move || child.wait());
+    Ok(())
 }

@@ -2,13 +2,15 @@
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
 
 use clap::Args;
 use serde_json::json;
 use smash::Result;
 use smash::files::print_bytes;
+use smash::report::require_page;
 use smash::studio::{Server, Studio};
+
+use super::browser;
 
 /// Opens a scene in the browser: add and remove effects, write laws, mark poses, and see the error fall
 ///
@@ -36,8 +38,9 @@ pub struct Arguments {
 /// Opens, tells, serves.
 ///
 /// # Errors
-/// The scene or the session can't be opened, or the port is taken.
+/// The scene or the session can't be opened, the port is taken, or this build has no page.
 pub fn run(arguments: &Arguments) -> Result<()> {
+    require_page()?;
     let studio = Studio::open(&arguments.scene, arguments.session.as_deref())?;
     super::warn(studio.scene().warnings());
     let server = Server::bind(arguments.port)?;
@@ -52,7 +55,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     };
     print_bytes(told.as_bytes())?;
     if !arguments.no_open && std::io::stdout().is_terminal() {
-        open_browser(&address);
+        // Where there is no browser, the address stands on the terminal.
+        let _ = browser::open(&address);
     }
     server.run(studio, async {
         // Where the signal can't be heard, killing ends it as well: all is saved.
@@ -60,14 +64,4 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             std::future::pending::<()>().await;
         }
     })
-}
-
-/// Where there is no browser, the address stands on the terminal.
-fn open_browser(address: &str) {
-    let _ = Command::new("xdg-open")
-        .arg(address)
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn();
 }
