@@ -68,10 +68,8 @@ impl Edits {
             let ends = [("after", before_s), ("before", after_s)];
             let ends = ends.iter().filter(|(_, end_s)| end_s.is_finite());
             let ends: Vec<String> = ends.map(|(word, s)| format!("{word} {s} s")).collect();
-            return Err(Error::invalid("time", problem).mend(format!(
-                "choose a time {}; mark the other pose first if it is the wrong one",
-                ends.join(" and ")
-            )));
+            return Err(Error::invalid("time", problem)
+                .mend(format!("choose a time {}", ends.join(" and "))));
         }
         self.times.retain(|other| other.pose != pose);
         if time_s != body.observations[at].time_s {
