@@ -162,24 +162,26 @@ impl Model {
         };
         let request = EffectRequest::parse_among(request, find).map_err(at_effect)?;
         let asked = instances(scene, &request).map_err(at_effect)?;
-        let mut left = asked.clone();
-        for instance in &mut self.effects {
-            if instance.effect.name != law.name {
-                continue;
-            }
+        let is_law = |instance: &Arc<Instance>| instance.effect.name == law.name;
+        // Of another scope, the law can't act at the old places: only where it is asked for.
+        let stays = |instance: &Arc<Instance>| {
+            let again = EffectRequest {
+                effect: law.clone(),
+                body: instance.body.map(|body| scene.bodies()[body].name.clone()),
+                fixed: Default::default(),
+            };
+            let there = instances(scene, &again);
+            there.is_ok_and(|there| matches!(&there[..], [only] if only.body == instance.body))
+        };
+        self.effects.retain(|instance| !is_law(instance) || stays(instance));
+        let mut left = asked;
+        for instance in self.effects.iter_mut().filter(|instance| is_law(instance)) {
             let is_same = |asked: &Instance| asked.body == instance.body;
             let fixed = match left.iter().position(is_same) {
                 Some(index) => left.remove(index).fixed,
                 None => Default::default(),
             };
             *instance = Arc::new(Instance { effect: law.clone(), body: instance.body, fixed });
-            // Another scope or other needs may leave the old places without a meaning.
-            let again = EffectRequest {
-                effect: law.clone(),
-                body: instance.body.map(|body| scene.bodies()[body].name.clone()),
-                fixed: Default::default(),
-            };
-            instances(scene, &again).map_err(at_effect)?;
         }
         self.effects.extend(left.into_iter().map(Arc::new));
         Ok(())

@@ -114,3 +114,15 @@ fn a_law_that_is_none_is_refused() {
         assert!(error["mend"].is_string(), "{error}");
     }
 }
+
+/// Where the old one acted, the new one can't: it acts where it was asked for, and once.
+#[test]
+fn a_law_of_another_scope_takes_the_place_of_the_old_one() {
+    let studio = Running::of("thrown_ball_drag.json");
+    let of_scene = MY_DRAG.replacen("title", "scope = \"scene\"\ntitle", 1);
+    studio.act(json!({"do": "law", "text": of_scene, "effect": "my_drag"}));
+    let state = studio.act(json!({"do": "law", "text": MY_DRAG, "effect": "my_drag@ball"}));
+    assert_eq!(state["variants"][2]["effects"], json!(["my_drag@ball"]));
+    let state = studio.act(json!({"do": "law", "text": of_scene, "effect": "my_drag"}));
+    assert_eq!(state["variants"][3]["effects"], json!(["my_drag"]));
+}
