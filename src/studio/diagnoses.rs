@@ -19,11 +19,18 @@ pub(super) struct Diagnoses {
     cores: Mutex<ThreadPool>,
 }
 
-/// A diagnosis that was asked for: of which variant, with how many laws beyond the catalogue.
+/// What a diagnosis is of: which variant, with which laws beyond the catalogue.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Subject {
+    pub(super) variant: usize,
+    /// Their texts.
+    pub(super) laws: Vec<String>,
+}
+
+/// A diagnosis that was asked for.
 #[derive(Debug)]
 struct Asked {
-    variant: usize,
-    laws: usize,
+    subject: Subject,
     found: Arc<OnceLock<Result<Diagnosis>>>,
 }
 
@@ -40,22 +47,23 @@ impl Diagnoses {
     }
 
     /// What was found, if it was.
-    pub(super) fn known(&self, variant: usize, laws: usize) -> Option<Diagnosis> {
-        self.asked(variant, laws).get().and_then(|found| found.as_ref().ok()).cloned()
+    pub(super) fn known(&self, subject: &Subject) -> Option<Diagnosis> {
+        let asked = locked(&self.asked);
+        let known = asked.iter().find(|one| one.subject == *subject)?;
+        known.found.get().and_then(|found| found.as_ref().ok()).cloned()
     }
 
     /// What was found, or what `diagnose` finds now, unless `is_stale` by the time that its turn comes.
     pub(super) fn found(
         &self,
-        variant: usize,
-        laws: usize,
+        subject: Subject,
         diagnose: impl FnOnce() -> Result<Diagnosis> + Send,
         is_stale: impl Fn() -> bool,
     ) -> Result<Diagnosis> {
         let overtaken = || {
             Err(Error::new(ErrorKind::Solve, "another variant is seen by now").mend("ask again"))
         };
-        let place = self.asked(variant, laws);
+        let place = self.asked(subject);
         let found = match place.get() {
             Some(found) => found.clone(),
             None => {
@@ -71,17 +79,16 @@ impl Diagnoses {
     }
 
     /// The place of a diagnosis, made if need be.
-    fn asked(&self, variant: usize, laws: usize) -> Arc<OnceLock<Result<Diagnosis>>> {
+    fn asked(&self, subject: Subject) -> Arc<OnceLock<Result<Diagnosis>>> {
         let mut asked = locked(&self.asked);
-        let known = asked.iter().find(|one| one.variant == variant && one.laws == laws);
-        if let Some(known) = known {
+        if let Some(known) = asked.iter().find(|one| one.subject == subject) {
             return known.found.clone();
         }
         if asked.len() == MOST_KEPT {
             asked.remove(0);
         }
         let found: Arc<OnceLock<_>> = Arc::default();
-        asked.push(Asked { variant, laws, found: found.clone() });
+        asked.push(Asked { subject, found: found.clone() });
         found
     }
 }

@@ -33,7 +33,7 @@ pub use server::Server;
 pub use state::{CatalogueEffect, LawView, STUDIO_SCHEMA, StudioState, VariantView};
 pub use tree::Numbers;
 
-use diagnoses::Diagnoses;
+use diagnoses::{Diagnoses, Subject};
 use file::{LARGEST_SESSION_BYTES, LONGEST_DRAFT_BYTES};
 use fits::Fits;
 use save::Save;
@@ -164,7 +164,7 @@ impl Studio {
         let options = RefinedOptions { effects, ..RefinedOptions::default() };
         let diagnosed = || diagnose(&shown.fit.scene, &options, &further);
         let is_stale = || self.shown().session.tree.current != variant;
-        self.diagnoses.found(variant, further.len(), diagnosed, is_stale)
+        self.diagnoses.found(subject(&shown.session), diagnosed, is_stale)
     }
 
     /// The page of the current variant and those that are compared, to be kept; with the diagnosis, if
@@ -175,8 +175,7 @@ impl Studio {
     pub fn report_page(&self) -> Result<String> {
         let shown = self.shown();
         let mut report = shown.report();
-        let (variant, laws) = (shown.session.tree.current, shown.session.laws().len());
-        report.diagnosis = self.diagnoses.known(variant, laws);
+        report.diagnosis = self.diagnoses.known(&subject(&shown.session));
         report.commands = self.commands();
         crate::report::page(&report)
     }
@@ -244,6 +243,12 @@ impl Studio {
     fn shown(&self) -> Arc<Shown> {
         locked(&self.shown).clone()
     }
+}
+
+/// What a diagnosis is of while `session` is seen.
+fn subject(session: &Session) -> Subject {
+    let laws = session.laws().into_iter().map(|law| law.text).collect();
+    Subject { variant: session.tree.current, laws }
 }
 
 /// What a panicked thread left is whole: it is only ever replaced.

@@ -1,6 +1,6 @@
 //! The diagnosis: on demand, of the variant that is seen.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::Running;
 
@@ -21,17 +21,22 @@ fn the_diagnosis_names_what_the_variant_lacks() {
     assert_eq!(studio.state()["report"]["diagnosis"], json!(null));
 }
 
-/// An act in between is answered; the diagnosis then is of a variant that nobody looks at, and says so.
+/// A law of the same name and number that says something else is another candidate.
 #[test]
-fn acts_do_not_wait_for_a_diagnosis() {
-    let studio = Running::of("boxes.json");
-    std::thread::scope(|scope| {
-        let asked = scope.spawn(|| studio.get("api/diagnosis"));
-        while studio.add("quadratic_drag@a")["current"] != 1 {}
-        let answer = asked.join().unwrap();
-        assert!(matches!(answer.status, 200 | 409), "{answer:?}");
-        if answer.status == 409 {
-            assert_eq!(answer.value()["error"]["mend"], "ask again");
-        }
-    });
+fn a_diagnosis_is_asked_again_after_a_law_changed() {
+    let law = "name = \"mine\"\n[parameters.k]\nunit = \"1/s\"\nnull = 0.0\n[law]\nacceleration = \"-k * v\"\n";
+    let studio = Running::of("thrown_ball_drag.json");
+    studio.act(json!({"do": "law", "text": law, "effect": "mine@ball"}));
+    studio.act(json!({"do": "undo"}));
+    let gain = |diagnosis: Value| {
+        let candidates = diagnosis["candidates"].as_array().unwrap();
+        candidates.iter().find(|one| one["effect"] == "mine").cloned().unwrap()
+    };
+    let first = gain(studio.get("api/diagnosis").json());
+    let other = law.replace("-k * v", "-k * norm(v) * v").replace("1/s", "1/m");
+    studio.act(json!({"do": "law", "text": other, "effect": "mine@ball"}));
+    studio.act(json!({"do": "undo"}));
+    // Not the old one in a report, either.
+    assert!(!studio.get("api/report").body.contains("\"schema\":\"smash.diagnosis/1\""));
+    assert_ne!(gain(studio.get("api/diagnosis").json()), first);
 }
