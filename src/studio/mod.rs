@@ -49,8 +49,8 @@ use crate::{Diagnosis, Error, Result, Scene};
 #[derive(Debug)]
 pub struct Studio {
     scene: Arc<Scene>,
-    /// How it was named.
-    scene_file: String,
+    /// How to name it in a command.
+    scene_word: String,
     scene_sha256: String,
     session_file: String,
     /// What is seen; held for moments only.
@@ -76,6 +76,11 @@ impl Studio {
     /// written.
     pub fn open(scene: &Path, session: Option<&Path>) -> Result<Studio> {
         let scene_file = display_name(scene, "standard input");
+        let scene_word = match scene == Path::new("-") {
+            // It has no name to type.
+            true => "SCENE".to_string(),
+            false => shell_word(&scene_file),
+        };
         let text = read_text(scene)?;
         let scene_sha256 = sha256(&text);
         let mut save = Save::open(scene, session)?;
@@ -96,7 +101,7 @@ impl Studio {
         }
         Ok(Studio {
             scene,
-            scene_file,
+            scene_word,
             scene_sha256,
             session_file: save.name().to_string(),
             shown: Mutex::new(Arc::new(shown)),
@@ -236,8 +241,8 @@ impl Studio {
 
     /// What to type to see the same again.
     fn commands(&self) -> Vec<String> {
-        let (scene, session) = (shell_word(&self.scene_file), shell_word(&self.session_file));
-        vec![format!("smash studio {scene} --session {session}")]
+        let session = shell_word(&self.session_file);
+        vec![format!("smash studio {} --session {session}", self.scene_word)]
     }
 
     fn shown(&self) -> Arc<Shown> {
