@@ -148,7 +148,9 @@ impl SessionFile {
             }
         }
         tree.compared = self.compared;
-        Ok(Session { tree, draft: self.draft })
+        let session = Session { tree, draft: self.draft };
+        session.check_laws().map_err(|error| error.at("variants"))?;
+        Ok(session)
     }
 }
 

@@ -206,6 +206,7 @@ impl Studio {
         let before = self.shown();
         let mut session = before.session.clone();
         session.tree.graft(&opened.tree)?;
+        session.check_laws()?;
         if session.draft.trim().is_empty() {
             session.draft = opened.draft;
         }

@@ -4,7 +4,7 @@ use super::action::{Action, Change};
 use super::tree::{Tree, Variant};
 use crate::effect::{Effect, EffectRequest, catalogue, name_of};
 use crate::words::counted;
-use crate::{Error, Result, Scene};
+use crate::{Error, ErrorKind, Result, Scene};
 
 /// Laws of a user's own.
 const MOST_LAWS: usize = 50;
@@ -44,16 +44,23 @@ impl Session {
         };
         let grown = next.tree.grow(scene, self.tree.current, change)?;
         if let Some(grown) = grown {
-            let laws = next.laws().len();
-            if laws > MOST_LAWS {
-                let problem = format!("the session would hold {}", counted(laws, "law"));
-                return Err(Error::invalid("text", problem).mend(format!(
-                    "keep {MOST_LAWS}: give a law the name of one that it replaces"
-                )));
+            if next.laws().len() > self.laws().len() {
+                next.check_laws().map_err(|error| error.at("text"))?;
             }
             next.tree.go(grown);
         }
         Ok((next, grown.is_some()))
+    }
+
+    /// Refuses too many laws.
+    pub(super) fn check_laws(&self) -> Result<()> {
+        let laws = self.laws().len();
+        if laws <= MOST_LAWS {
+            return Ok(());
+        }
+        let problem = format!("the session would hold {}", counted(laws, "law"));
+        Err(Error::new(ErrorKind::Invalid, problem)
+            .mend(format!("keep {MOST_LAWS}: give a law the name of one that it replaces")))
     }
 
     /// The change, with the text of the law that it names: a variant depends on nothing but the one that

@@ -198,7 +198,13 @@ impl Tree {
             }
         }
         self.go(places[other.current]);
-        self.compared = other.compared.iter().map(|&variant| places[variant]).collect();
+        // Siblings of the same change are one here: several may lead to the same place.
+        for place in other.compared.iter().map(|&variant| places[variant]) {
+            let is_new = place != self.current && !self.compared.contains(&place);
+            if is_new && self.compared.len() < MOST_COMPARED {
+                self.compared.push(place);
+            }
+        }
         Ok(())
     }
 

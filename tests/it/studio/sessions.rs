@@ -158,3 +158,50 @@ fn an_interrupt_ends_it_cleanly() {
     assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
     assert_eq!(studio.ended(), Some(0));
 }
+
+/// Two variants of the session are one where it is opened.
+#[test]
+fn an_opened_session_with_doubled_siblings_starts_again() {
+    let studio = Running::of(BALL);
+    studio.add("quadratic_drag@ball");
+    studio.act(json!({"do": "undo"}));
+    studio.add("quadratic_drag@ball");
+    studio.act(json!({"do": "compare", "variant": 1, "shown": true}));
+    let saved = studio.get("api/session").body;
+    let other = Running::of(BALL);
+    other.act(json!({"do": "compare", "variant": 0, "shown": true}));
+    let opened = other.post("api/session", &saved).json();
+    assert_eq!((&opened["current"], &opened["compared"]), (&json!(1), &json!([])));
+    assert_eq!(timeless(other.again().state()), timeless(opened));
+}
+
+/// A file with too many laws is refused when it is opened, and not by every act after that.
+#[test]
+fn a_session_with_too_many_laws_is_refused_at_once() {
+    let studio = Running::of(BALL);
+    studio.act(json!({"do": "law", "text": LAW, "effect": "lift@ball"}));
+    let mut saved: Value = serde_json::from_str(&studio.get("api/session").body).unwrap();
+    let variants = saved["variants"].as_array_mut().unwrap();
+    for index in 2..=52 {
+        let mut one = variants[1].clone();
+        one["change"]["text"] = json!(LAW.replace("lift", &format!("lift_{index}")));
+        one["change"]["effect"] = json!(format!("lift_{index}@ball"));
+        variants.push(one);
+    }
+    let with = |laws: usize| {
+        let mut some = saved.clone();
+        some["variants"].as_array_mut().unwrap().truncate(1 + laws);
+        some.to_string()
+    };
+    let other = Running::of(BALL);
+    let error = other.post("api/session", &with(51));
+    assert_eq!((error.status, &error.value()["error"]["place"]), (409, &json!("variants")));
+    // As many as may be: all goes on, but for a further one.
+    assert_eq!(other.post("api/session", &with(50)).status, 200);
+    other.add("quadratic_drag@ball");
+    let law = LAW.replace("lift", "further");
+    let error = other.refused(json!({"do": "law", "text": law, "effect": "further@ball"}));
+    assert_eq!(error["place"], "text");
+    other
+        .act(json!({"do": "law", "text": LAW.replace("a * up", "-a * up"), "effect": "lift@ball"}));
+}
