@@ -76,14 +76,10 @@ impl Studio {
     /// written.
     pub fn open(scene: &Path, session: Option<&Path>) -> Result<Studio> {
         let scene_file = display_name(scene, "standard input");
-        let scene_word = match scene == Path::new("-") {
-            // It has no name to type.
-            true => "SCENE".to_string(),
-            false => shell_word(&scene_file),
-        };
         let text = read_text(scene)?;
         let scene_sha256 = sha256(&text);
         let mut save = Save::open(scene, session)?;
+        let scene_path = scene;
         let scene = Arc::new(Scene::parse(&text, &scene_file)?);
         let saved = save.read()?;
         let session = match &saved {
@@ -101,7 +97,11 @@ impl Studio {
         }
         Ok(Studio {
             scene,
-            scene_word,
+            scene_word: match scene_path == Path::new("-") {
+                // It has no name to type.
+                true => "SCENE".to_string(),
+                false => shell_word(&scene_file),
+            },
             scene_sha256,
             session_file: save.name().to_string(),
             shown: Mutex::new(Arc::new(shown)),
