@@ -7,7 +7,7 @@ use crate::diagnose::{
     tried,
 };
 use crate::effect::EffectRequest;
-use crate::reconstruct::refined::{Fitted, Instance};
+use crate::reconstruct::refined::{Fitted, Instance, points};
 use crate::{Result, Scene};
 
 /// Hypotheses that climb side by side.
@@ -66,10 +66,10 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
         }
         climbing = next;
     }
-    let (best, dropped) = without_superfluous(scene, base, best)?;
+    let (best, dropped) = without_superfluous(scene, base, best, further)?;
     let is_structured = match best.steps.is_empty() {
         true => Goodness::of(scene, base)?.is_structured,
-        false => is_left_over(scene, base, &best)?,
+        false => is_left_over(scene, base, &best, further)?,
     };
     Ok(Found { steps: best.steps, dropped, is_structured })
 }
@@ -95,11 +95,16 @@ impl Hypothesis {
 
 /// Whether the effects of `best` leave more than noise, or one law that the catalogue hasn't got
 /// explains more than all of them.
-fn is_left_over(scene: &Scene, base: &Fitted, best: &Hypothesis) -> Result<bool> {
+fn is_left_over(
+    scene: &Scene,
+    base: &Fitted,
+    best: &Hypothesis,
+    further: &[EffectRequest],
+) -> Result<bool> {
     if Leftover::of(scene, &best.fitted)?.is_structured() {
         return Ok(true);
     }
-    let tried = all_candidates(scene, base, &[])?.len();
+    let tried = all_candidates(scene, base, further)?.len();
     Ok(rivals(scene, base, tried)?.iter().any(|law| law.bic < best.bic - TELLS_APART))
 }
 
@@ -108,6 +113,7 @@ fn without_superfluous(
     scene: &Scene,
     base: &Fitted,
     mut best: Hypothesis,
+    further: &[EffectRequest],
 ) -> Result<(Hypothesis, Vec<String>)> {
     let mut dropped = Vec::new();
     let mut index = 0;
@@ -115,19 +121,31 @@ fn without_superfluous(
         let mut others = best.steps.clone();
         let left_out = others.remove(index);
         let mut without = base.clone();
+        let mut bic = 0.0;
         for step in &others {
-            without = without.with(scene, &step.instance)?;
+            let with = without.with(scene, &step.instance)?;
+            bic += bic_of_last(scene, &without, &with);
+            without = with;
         }
         let with = without.with(scene, &left_out.instance)?;
-        let tried = all_candidates(scene, &without, &[])?.len();
+        let tried = all_candidates(scene, &without, further)?.len();
         let is_needed = evidence(&without, &with, 1, tried)
             .is_some_and(|evidence| evidence.p_value < FALSE_ALARM);
         if is_needed {
             index += 1;
         } else {
             dropped.push(left_out.instance.label(scene));
-            best = Hypothesis { fitted: without, steps: others, bic: best.bic };
+            best = Hypothesis { fitted: without, steps: others, bic };
         }
     }
     Ok((best, dropped))
+}
+
+/// Schwarz's criterion of `with`, which has one effect more than `without`, against that.
+fn bic_of_last(scene: &Scene, without: &Fitted, with: &Fitted) -> f64 {
+    let Some(last) = with.acting.last() else { return 0.0 };
+    let scanned = points(scene, &last.instance).len().max(1);
+    let poses = last.instance.is_of_a_pose().then_some(scanned);
+    // How many were tried has no part in it. What the data don't depend on costs nothing.
+    evidence(without, with, scanned, 1).map_or(0.0, |evidence| evidence.bic(with.numbers(), poses))
 }
