@@ -39,7 +39,7 @@ pub fn diagnose_throws(
     let instances = instances(&throws, further)?;
     let candidates = pooled(&throws, &instances);
     let (channels, is_structured) = looks(&throws)?;
-    let rest = best_of(&throws, &candidates).map(|(_, rest)| rest);
+    let (best, rest) = best_of(&throws, &candidates).unzip();
     let stays_structured = match &rest {
         Some(rest) => looks(rest)?.1,
         None => false,
@@ -55,7 +55,9 @@ pub fn diagnose_throws(
     let weight = |bic: f64| (-0.5 * (bic - least)).exp();
     let total: f64 = weight(0.0) + candidates.iter().map(|c| weight(c.bic)).sum::<f64>();
     let mut order: Vec<usize> = (0..candidates.len()).collect();
-    order.sort_by_key(|&index| !candidates[index].stands_out());
+    // The verdict is about the best that can be flown: it is named first.
+    let is_best = |index: usize| best.is_some_and(|best| std::ptr::eq(best, &candidates[index]));
+    order.sort_by_key(|&index| (!is_best(index), !candidates[index].stands_out()));
     let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
     let reports = order
         .iter()
