@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::effect::Scan;
-use crate::reconstruct::refined::{FlownPose, flown};
+use crate::reconstruct::refined::{FlownPose, flown, model_times};
 use crate::rigid_body::omega_in_world;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::{Reconstruction, Result, Scene};
@@ -28,9 +28,9 @@ pub struct Motion {
 pub struct BodyMotion {
     /// The body's name.
     pub name: String,
-    /// Ends at the collision.
+    /// Ends at the collision, by the body's stamps.
     pub before: Track,
-    /// Begins at the collision.
+    /// Begins at the collision, by the body's stamps.
     pub after: Track,
 }
 
@@ -76,33 +76,76 @@ pub(crate) fn sampled(
     times: impl Fn(f64, f64) -> Vec<f64>,
 ) -> Result<Option<Motion>> {
     let Some(collision_time_s) = result.collision_time.value else { return Ok(None) };
-    // The last sample before the collision: its pose is that of the collision.
-    let before_s = collision_time_s.next_down();
     let result = without_wrong_poses(result)?;
-    let stamps = |index: usize| {
+    // By each body's own stamps, which an effect may have moved.
+    let meetings = collision_stamps(scene, &result, collision_time_s)?;
+    let stamps = |(index, meeting): (usize, &Meeting)| {
         let seen = scene.bodies()[index].observations.iter().map(|pose| pose.time_s);
-        let first_s = seen.clone().fold(before_s, f64::min);
-        let last_s = seen.fold(collision_time_s, f64::max);
-        let mut all = times(first_s, before_s);
-        all.extend(times(collision_time_s, last_s));
+        let first_s = seen.clone().fold(meeting.before_s, f64::min);
+        let last_s = seen.fold(meeting.after_s, f64::max);
+        let mut all = times(first_s, meeting.before_s);
+        all.extend(times(meeting.after_s, last_s));
         all
     };
-    let bodies = (0..scene.bodies().len()).map(stamps).collect();
-    let sampled = scene.sampled_at(bodies);
+    let sampled = scene.sampled_at(meetings.iter().enumerate().map(stamps).collect());
     let flown = flown(&sampled, &result, collision_time_s)?;
-    let bodies = sampled.bodies().iter().zip(flown).map(|(body, poses)| {
-        let stamps = body.observations.iter().map(|sample| sample.time_s);
-        let (after, before): (Vec<_>, Vec<_>) =
-            stamps.zip(poses).partition(|(_, pose)| pose.is_after);
-        let mut motion =
-            BodyMotion { name: body.name.clone(), before: track(&before), after: track(&after) };
-        motion.after.follow(&motion.before);
-        if let Some(last_s) = motion.before.times.last_mut().filter(|last_s| **last_s == before_s) {
-            *last_s = collision_time_s;
-        }
-        motion
-    });
+    let bodies =
+        sampled.bodies().iter().zip(flown).zip(&meetings).map(|((body, poses), meeting)| {
+            let stamps = body.observations.iter().map(|sample| meeting.told(sample.time_s));
+            let (after, before): (Vec<_>, Vec<_>) =
+                stamps.zip(poses).partition(|(_, pose)| pose.is_after);
+            let mut motion = BodyMotion {
+                name: body.name.clone(),
+                before: track(&before),
+                after: track(&after),
+            };
+            motion.after.follow(&motion.before);
+            motion
+        });
     Ok(Some(Motion { collision_time: collision_time_s, bodies: bodies.collect() }))
+}
+
+/// When a body collides, by its own stamps.
+struct Meeting {
+    stamp_s: f64,
+    /// The last number that is before it, and the first that isn't: their poses are those of the
+    /// collision.
+    before_s: f64,
+    after_s: f64,
+}
+
+impl Meeting {
+    /// The time that is told of a sample.
+    fn told(&self, time_s: f64) -> f64 {
+        if time_s == self.before_s || time_s == self.after_s { self.stamp_s } else { time_s }
+    }
+}
+
+/// The stamp of each body at which its motion is that of the collision.
+fn collision_stamps(
+    scene: &Scene,
+    result: &Reconstruction,
+    collision_time_s: f64,
+) -> Result<Vec<Meeting>> {
+    /// A shift of the stamps is made up for at once, a stretched clock in a few rounds.
+    const ROUNDS: usize = 8;
+    let mut stamps = vec![collision_time_s; scene.bodies().len()];
+    for _ in 0..ROUNDS {
+        let sampled = scene.sampled_at(stamps.iter().map(|stamp| vec![*stamp]).collect());
+        let times_s = model_times(&sampled, result, collision_time_s)?;
+        for (stamp, time_s) in stamps.iter_mut().zip(times_s) {
+            *stamp += collision_time_s - time_s;
+        }
+    }
+    let meeting = |stamp_s: f64| match stamp_s == collision_time_s {
+        true => Meeting { stamp_s, before_s: stamp_s.next_down(), after_s: stamp_s },
+        // Away from the rounding of the stamp's own law.
+        false => {
+            let apart_s = 4.0 * (stamp_s.abs().max(collision_time_s.abs()) * f64::EPSILON);
+            Meeting { stamp_s, before_s: stamp_s - apart_s, after_s: stamp_s + apart_s }
+        }
+    };
+    Ok(stamps.into_iter().map(meeting).collect())
 }
 
 /// The result without effects of single poses, which move nothing.

@@ -74,3 +74,27 @@ fn a_wrong_pose_moves_nothing() {
         assert!(moved < 1.0, "{moved} m within a frame");
     }
 }
+
+/// A body whose clock is late meets the other by its own stamp: the way has its bend there.
+#[test]
+fn a_late_clock_moves_the_meeting() {
+    let scene = scene("boxes");
+    let mut options = RefinedOptions::default();
+    options.effects.push(EffectRequest::parse("time_offset@b:delay=-0.02").unwrap());
+    let result = reconstruct(&scene, &Options::Refined(options)).unwrap();
+    let motion = motion(&scene, &result, 60.0).unwrap().unwrap();
+    let [a, b] = motion.bodies.as_slice() else { panic!() };
+    assert_eq!(a.after.times[0], motion.collision_time);
+    assert!((b.after.times[0] - motion.collision_time).abs() > 0.01, "{}", b.after.times[0]);
+    for (body, known) in motion.bodies.iter().zip(&result.bodies) {
+        assert_eq!(body.before.times.last(), body.after.times.first());
+        let near = |found: [f64; 3], expected: [f64; 3]| {
+            let apart = (Vector3::from(found) - Vector3::from(expected)).norm();
+            assert!(apart < 1e-9, "{}: {apart}", body.name);
+        };
+        near(*body.before.positions.last().unwrap(), known.position);
+        near(body.after.positions[0], known.position);
+        near(*body.before.velocities.last().unwrap(), known.velocity_before);
+        near(body.after.velocities[0], known.velocity_after);
+    }
+}

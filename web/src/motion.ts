@@ -12,7 +12,7 @@ export interface State {
 
 /** Before and after meet at the collision; beyond the first and last pose a body stands still. */
 export function stateAt(body: BodyMotion, collisionTime: number, time: number): State {
-  const track = time < collisionTime ? body.before : body.after;
+  const track = time < (body.after.times[0] ?? collisionTime) ? body.before : body.after;
   const later = track.times.findIndex((sample) => sample >= time);
   if (later === 0) return sample(track, 0);
   if (later < 0) return sample(track, track.times.length - 1);

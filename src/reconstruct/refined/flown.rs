@@ -64,6 +64,20 @@ pub(crate) fn flown(
     Ok(bodies)
 }
 
+/// When each pose of `scene`, body by body, is in the model: effects may move stamps.
+///
+/// # Errors
+/// As [`flown`].
+pub(crate) fn model_times(
+    scene: &Scene,
+    result: &Reconstruction,
+    collision_time_s: f64,
+) -> Result<Vec<f64>> {
+    let (refined, parameters) = model(scene, result)?;
+    let side = Side::new(scene, result, &refined, &parameters, collision_time_s, false)?;
+    pose_times(&refined, &side.unknowns).map_err(solver_error)
+}
+
 /// The result's model of the scene but for what strikes at the collision, which its states before
 /// and after tell already; and the effects' parameters.
 fn model(scene: &Scene, result: &Reconstruction) -> Result<(RefinedScene, Vec<f64>)> {

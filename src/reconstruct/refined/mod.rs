@@ -35,7 +35,7 @@ mod uncertainty;
 
 pub(crate) use self::acting::{Acting, Instance, instances, possible};
 pub(crate) use self::fitted::Fitted;
-pub(crate) use self::flown::{FlownPose, flown};
+pub(crate) use self::flown::{FlownPose, flown, model_times};
 pub(crate) use self::gain::{Gain, gains, information_of_last, linearised};
 pub(crate) use self::report::reconstruction as report;
 pub(crate) use self::starts::{points, scanned};
