@@ -13,8 +13,8 @@ pub(super) struct LawForm {
     pub(super) kind: Kind,
     /// The right side of its line in an effect file.
     pub(super) law: &'static str,
-    /// Whether no effect of the catalogue is of this form.
-    pub(super) is_foreign: bool,
+    /// `None` where the catalogue has an effect of this form; else those that it holds as special cases.
+    pub(super) beyond: Option<&'static [&'static str]>,
     /// The same as an effect.
     pub(super) effect: Effect,
 }
@@ -26,68 +26,83 @@ impl LawForm {
     }
 }
 
-/// Words, kind, law, parameters with unit and number of components, whether it is foreign.
-type Row = (&'static str, Kind, &'static str, &'static [(&'static str, &'static str, usize)], bool);
+/// Words, kind, law, parameters with unit and number of components, [`LawForm::beyond`].
+type Row = (
+    &'static str,
+    Kind,
+    &'static str,
+    &'static [(&'static str, &'static str, usize)],
+    Option<&'static [&'static str]>,
+);
+
+const CONSTANT: &[&str] = &["constant_force"];
+const CONSTANT_OR_DRAG: &[&str] = &["constant_force", "linear_drag"];
 
 const ROWS: [Row; 13] = {
     use Kind::{Acceleration, Torque};
     [
-        ("the velocity", Acceleration, "k * v", &[("k", "1/s", 1)], false),
-        ("speed times velocity", Acceleration, "k * norm(v) * v", &[("k", "1/m", 1)], false),
-        ("spin × velocity", Acceleration, "k * cross(w, v)", &[("k", "1", 1)], false),
-        ("nothing: it is constant in the world", Acceleration, "a", &[("a", "m/s^2", 3)], false),
+        ("the velocity", Acceleration, "k * v", &[("k", "1/s", 1)], None),
+        ("speed times velocity", Acceleration, "k * norm(v) * v", &[("k", "1/m", 1)], None),
+        ("spin × velocity", Acceleration, "k * cross(w, v)", &[("k", "1", 1)], None),
+        ("nothing: it is constant in the world", Acceleration, "a", &[("a", "m/s^2", 3)], None),
         (
             "nothing: it is constant along gravity",
             Acceleration,
             "k * up",
             &[("k", "m/s^2", 1)],
-            false,
+            None,
         ),
         (
             "the position: like a spring to an anchor",
             Acceleration,
             "a - k * p",
             &[("k", "1/s^2", 1), ("a", "m/s^2", 3)],
-            true,
+            Some(CONSTANT),
         ),
         (
             "the velocity against what moves: like drag in a wind",
             Acceleration,
             "a - k * v",
             &[("k", "1/s", 1), ("a", "m/s^2", 3)],
-            true,
+            Some(CONSTANT_OR_DRAG),
         ),
         (
             "a fixed axis × velocity: like Coriolis' force",
             Acceleration,
             "cross(W, v)",
             &[("W", "1/s", 3)],
-            true,
+            Some(&[]),
         ),
         (
             "the body's own directions: like a thrust",
             Acceleration,
             "rotate(f)",
             &[("f", "m/s^2", 3)],
-            true,
+            Some(&[]),
         ),
-        ("time: it grows along one direction", Acceleration, "t * b", &[("b", "m/s^3", 3)], true),
-        ("the spin", Torque, "k * L", &[("k", "1/s", 1)], false),
-        ("nothing: it is constant in the world", Torque, "b", &[("b", "m^2/s^2", 3)], true),
+        (
+            "time: it changes evenly",
+            Acceleration,
+            "a + (t - t_c) * b",
+            &[("b", "m/s^3", 3), ("a", "m/s^2", 3)],
+            Some(CONSTANT),
+        ),
+        ("the spin", Torque, "k * L", &[("k", "1/s", 1)], None),
+        ("nothing: it is constant in the world", Torque, "b", &[("b", "m^2/s^2", 3)], Some(&[])),
         (
             "the body's own directions: like a motor's",
             Torque,
             "rotate(f)",
             &[("f", "m^2/s^2", 3)],
-            true,
+            Some(&[]),
         ),
     ]
 };
 
 static FORMS: LazyLock<Vec<LawForm>> = LazyLock::new(|| {
-    let form = |(goes_with, kind, law, parameters, is_foreign): Row| {
+    let form = |(goes_with, kind, law, parameters, beyond): Row| {
         let effect = law_of(hook(kind), law, parameters);
-        LawForm { goes_with, kind, law, is_foreign, effect }
+        LawForm { goes_with, kind, law, beyond, effect }
     };
     ROWS.into_iter().map(form).collect()
 });

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::FALSE_ALARM;
 use super::evidence::evidence;
 use super::forms::{LawForm, forms};
+use super::{Candidate, FALSE_ALARM};
 use crate::reconstruct::refined::{Fitted, Instance, gains, possible};
 use crate::{Result, Scene};
 
@@ -33,10 +33,29 @@ pub struct OtherLaw {
     pub bic: f64,
 }
 
+impl OtherLaw {
+    /// Whether `candidate` is a special case of it, and does as well: then it says no more.
+    pub(super) fn is_needless_beside(&self, candidate: &Candidate, scene: &Scene) -> bool {
+        let form = forms().iter().find(|form| form.line() == self.law);
+        let held = form.and_then(|form| form.beyond).unwrap_or_default();
+        let is_held = |name: &str| match name {
+            // On a lone body another gravity is a constant force.
+            "gravity_scale" | "gravity_tilt" if scene.bodies().len() == 1 => {
+                held.contains(&"constant_force")
+            }
+            _ => held.contains(&name),
+        };
+        let instance = candidate.instance();
+        let body = instance.body.map(|body| &scene.bodies()[body].name);
+        let is_same_body = scene.bodies().len() == 1 || body == self.body.as_ref();
+        is_same_body && is_held(&instance.effect.name) && candidate.bic <= self.bic
+    }
+}
+
 /// The laws that explain `scene` significantly better than its model, the best first. `tried`: how
 /// many candidates there are beside them.
 pub(crate) fn rivals(scene: &Scene, fitted: &Fitted, tried: usize) -> Result<Vec<OtherLaw>> {
-    let foreign = forms().iter().filter(|form| form.is_foreign);
+    let foreign = forms().iter().filter(|form| form.beyond.is_some());
     let all: Vec<(&LawForm, Instance)> = foreign
         .flat_map(|form| possible(scene, &form.effect).into_iter().map(move |one| (form, one)))
         .collect();

@@ -42,6 +42,7 @@ pub(super) fn diagnosis(
         Some(_) => rivals(scene, fitted, instances.len())?,
         None => Vec::new(),
     };
+    other_laws.retain(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)));
     let (odds, none) = probabilities(&candidates, &other_laws);
     let verdict = match (first, &rest) {
         (Some(first), Some(rest)) => {

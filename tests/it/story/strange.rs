@@ -102,3 +102,35 @@ fn poses_that_make_no_sense_are_not_explained() {
         Err(error) => assert!(error.hint().is_some(), "{error}"),
     }
 }
+
+/// What a recorder's clock starts from is no physics: all is told as with the clock from zero, but for
+/// the rounding of its stamps.
+#[test]
+fn where_the_clock_starts_does_not_matter() {
+    let growing = format!("{}/examples/effects/growing_force.toml", env!("CARGO_MANIFEST_DIR"));
+    let growing = effect(&growing, Some("a"), &[("growth", &[1.5, 0.0, 0.5])]);
+    let hidden = with(boxes(5), &[growing]);
+    let told = [0.0, 100.0].map(|start_s| {
+        let mut scene: Value = serde_json::from_str(&hidden.scene_file.to_json()).unwrap();
+        for body in scene["bodies"].as_array_mut().unwrap() {
+            for pose in body["observations"].as_array_mut().unwrap() {
+                let time_s = pose["frame"].as_f64().unwrap() / hidden.scene.fps().unwrap();
+                drop_key(pose, "frame");
+                pose["time"] = json!(start_s + time_s);
+            }
+        }
+        let scene = Scene::parse(&scene.to_string(), "clock").unwrap();
+        smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap()
+    });
+    let [zero, late] = told;
+    assert_eq!(zero.verdict, late.verdict);
+    assert!(!zero.other_laws.is_empty(), "{}", zero.explanation);
+    let laws = |told: &smash::diagnose::Diagnosis| -> Vec<String> {
+        told.other_laws.iter().map(|law| law.law.clone()).collect()
+    };
+    assert_eq!(laws(&zero), laws(&late));
+    for (zero, late) in zero.other_laws.iter().zip(&late.other_laws) {
+        let apart = (zero.delta_chi2 - late.delta_chi2).abs();
+        assert!(apart < 1e-3 * zero.delta_chi2, "{zero:?} {late:?}");
+    }
+}
