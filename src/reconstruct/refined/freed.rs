@@ -7,6 +7,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use super::acting::{Acting, possible};
 use super::fitted::Fitted;
 use super::layout::Layout;
+use super::parabolas::Parabolas;
+use super::start::{Leaving, freed_candidates};
 use super::starts::{Start, away, touch};
 use crate::bridge::refined::ffi::{RefinedLaunch, RefinedScene, RefinedUnknowns, launch};
 use crate::effect::Effect;
@@ -41,39 +43,63 @@ angular_impulse = "S"
 "#;
 /// Typical sizes that the search for the same jump starts from.
 const SIZES: [f64; 2] = [0.0, 1.0];
+/// Pairs of flights that are tried.
+const MOST_TURNS: usize = 2;
 const MOST_STEPS: usize = 30;
 /// Of a coordinate's scale.
 const STEP: f64 = 1e-6;
 
-/// The starts of `nested` with `acting` added, which `refined` holds already.
+/// The starts of `nested` with `acting` added, which `refined` holds already: from its own optimum, and
+/// from the flights alone, since a bent fit may have settled on other turns of a spin.
 pub(super) fn freed(
     nested: &Fitted,
     scene: &Scene,
     refined: &RefinedScene,
     acting: &Acting,
 ) -> Result<Vec<Start>> {
+    let mut free = vec![freed_optimum(nested, scene)?];
+    let parabolas = Parabolas::new(scene);
+    for segment in parabolas.best_segments(1) {
+        let candidates = freed_candidates(&nested.refined, &parabolas, &segment)?;
+        free.extend(
+            candidates
+                .into_iter()
+                .take(MOST_TURNS)
+                .map(|(candidate, leaving)| ((candidate.unknowns, candidate.gap), leaving)),
+        );
+    }
+    let known = &nested.best().solution.unknowns.parameters;
+    let mut starts = Vec::new();
+    for ((mut start, gap), wanted) in free {
+        start.parameters = [known.as_slice(), &acting.instance.null()].concat();
+        if let Some(plane) = scene.plane() {
+            let normal = plane.normal_in_world.into_inner();
+            let jump = wanted[0].velocity - Vector3::from(start.bodies[0].velocity_before);
+            start.impulse = (normal * normal.dot(&jump)).into();
+            touch(&mut start, plane);
+        }
+        starts.extend(SIZES.iter().filter_map(|size| {
+            let start = away(refined, acting, &start, *size);
+            Some((same_jump(refined, acting, start, &wanted)?, gap))
+        }));
+    }
+    Ok(starts)
+}
+
+/// The optimum of `nested` where any jump is possible, and how the bodies leave it.
+fn freed_optimum(nested: &Fitted, scene: &Scene) -> Result<(Start, Vec<Leaving>)> {
     let text = if scene.plane().is_some() { FREE_JUMP } else { FREE_SPIN };
     let mut free = nested.clone();
     for instance in possible(scene, &Effect::parse(text, "free_jump")?) {
         free = free.with_quickly(scene, &instance)?;
     }
     let best = free.best();
-    let wanted = launch(&free.refined, &best.solution.unknowns).map_err(solver_error)?;
-    let mut start = best.solution.unknowns.clone();
-    start.parameters.truncate(acting.first);
-    start.parameters.extend(acting.instance.null());
-    if let Some(plane) = scene.plane() {
-        let normal = plane.normal_in_world.into_inner();
-        let jump = Vector3::from(wanted[0].velocity_after)
-            - Vector3::from(start.bodies[0].velocity_before);
-        start.impulse = (normal * normal.dot(&jump)).into();
-        touch(&mut start, plane);
-    }
-    let found = SIZES.iter().filter_map(|size| {
-        let start = away(refined, acting, &start, *size);
-        Some((same_jump(refined, acting, start, &wanted)?, best.gap))
-    });
-    Ok(found.collect())
+    let launched = launch(&free.refined, &best.solution.unknowns).map_err(solver_error)?;
+    Ok(((best.solution.unknowns.clone(), best.gap), launched.iter().map(leaving).collect()))
+}
+
+fn leaving(launched: &RefinedLaunch) -> Leaving {
+    Leaving { velocity: launched.velocity_after.into(), spin: launched.spin_after.into() }
 }
 
 /// Contact, impulse and parameters for which the bodies leave as `wanted`, as nearly as may be, by
@@ -82,7 +108,7 @@ fn same_jump(
     refined: &RefinedScene,
     acting: &Acting,
     mut unknowns: RefinedUnknowns,
-    wanted: &[RefinedLaunch],
+    wanted: &[Leaving],
 ) -> Option<RefinedUnknowns> {
     let layout = Layout::new(refined);
     let impulse = layout.impulse..layout.contact.unwrap_or(layout.impulse);
@@ -127,14 +153,14 @@ fn same_jump(
 fn miss(
     refined: &RefinedScene,
     unknowns: &RefinedUnknowns,
-    wanted: &[RefinedLaunch],
+    wanted: &[Leaving],
 ) -> Option<DVector<f64>> {
-    let own = launch(refined, unknowns).ok()?;
+    let own: Vec<Leaving> = launch(refined, unknowns).ok()?.iter().map(leaving).collect();
     let bodies = refined.bodies.iter().zip(own.iter().zip(wanted));
     let numbers = bodies.flat_map(|(body, (own, wanted))| {
         let size_m = Vector3::from(body.size).norm();
-        let velocity = Vector3::from(own.velocity_after) - Vector3::from(wanted.velocity_after);
-        let spin = Vector3::from(own.spin_after) - Vector3::from(wanted.spin_after);
+        let velocity = own.velocity - wanted.velocity;
+        let spin = own.spin - wanted.spin;
         [velocity, spin / size_m].map(<[f64; 3]>::from).concat()
     });
     let miss = DVector::from_vec(numbers.collect());

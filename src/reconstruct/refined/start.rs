@@ -71,12 +71,58 @@ pub(super) fn candidates(
             log_mass_ratio: fit.log_mass_ratio.clamp(-LARGEST_LOG_MASS, LARGEST_LOG_MASS),
             ..start
         };
-        settle(&mut unknowns, &kinks, &choice);
+        let jumps: Vec<[Vector3<f64>; 2]> =
+            (0..kinks.len()).map(|index| jump_by_contact(&unknowns, index)).collect();
+        settle(&mut unknowns, &kinks, &choice, &jumps);
         let spin_cost: f64 = choice.iter().flatten().map(|pair| pair.cost).sum();
         let cost = position_cost + spin_cost + fit.cost;
         candidates.push(Candidate { gap: segment.gap, unknowns, cost });
     }
     Ok(candidates)
+}
+
+/// How a body leaves the collision.
+pub(super) struct Leaving {
+    pub(super) velocity: Vector3<f64>,
+    /// l per unit of its mass.
+    pub(super) spin: Vector3<f64>,
+}
+
+/// The starts in `segment` by the flights alone, whatever it was that made the jumps between them, the
+/// best first; each with how the bodies leave.
+pub(super) fn freed_candidates(
+    scene: &RefinedScene,
+    parabolas: &Parabolas,
+    segment: &Segment,
+) -> Result<Vec<(Candidate, Vec<Leaving>)>> {
+    let kinks = parabolas.kinks(segment);
+    let pairs = scene
+        .bodies
+        .iter()
+        .map(|body| body_pairs(body, segment, Search::AllAxes))
+        .collect::<Result<Vec<Vec<Pair>>>>()?;
+    let freed = |choice: Vec<Option<&Pair>>| {
+        let mut unknowns = start(scene, &kinks, &choice, segment.collision_time_s);
+        let jumps: Vec<[Vector3<f64>; 2]> = kinks
+            .iter()
+            .zip(&choice)
+            .map(|(kink, pair)| {
+                let spin = pair.map_or_else(Vector3::zeros, |pair| pair.jump);
+                [kink.velocity_after - kink.velocity_before, spin]
+            })
+            .collect();
+        settle(&mut unknowns, &kinks, &choice, &jumps);
+        let leaving = unknowns.bodies.iter().zip(&jumps).map(|(body, [velocity, spin])| Leaving {
+            velocity: Vector3::from(body.velocity_before) + velocity,
+            spin: Vector3::from(body.spin_before) + spin,
+        });
+        let leaving = leaving.collect();
+        let cost = choice.iter().flatten().map(|pair| pair.cost).sum();
+        (Candidate { gap: segment.gap, unknowns, cost }, leaving)
+    };
+    let mut all: Vec<_> = combinations(&pairs).into_iter().map(freed).collect();
+    all.sort_by(|(a, _), (b, _)| a.cost.total_cmp(&b.cost));
+    Ok(all)
 }
 
 /// No start has one body a hundred thousand times as heavy as the other.
@@ -263,20 +309,29 @@ fn within_reach(scene: &RefinedScene, kinks: &[Kink], point: Vector3<f64>) -> Ve
     if way.norm() > reach_m { middle + way * (reach_m / way.norm()) } else { point }
 }
 
-/// Gives each body the velocity, orientation and spin that fit both of its flights best, now that
-/// the jump between them is known.
-fn settle(unknowns: &mut RefinedUnknowns, kinks: &[Kink], choice: &[Option<&Pair>]) {
+/// What the impulse at the contact does to a body: the jumps in v and l.
+fn jump_by_contact(unknowns: &RefinedUnknowns, index: usize) -> [Vector3<f64>; 2] {
     let impulse = Vector3::from(unknowns.impulse);
-    let contact = Vector3::from(unknowns.contact_point);
-    let log_mass = unknowns.log_mass_ratio;
+    let kick = if index == 0 { impulse } else { -impulse * (-unknowns.log_mass_ratio).exp() };
+    let centre = Vector3::from(unknowns.bodies[index].position);
+    [kick, (Vector3::from(unknowns.contact_point) - centre).cross(&kick)]
+}
+
+/// Gives each body the velocity, orientation and spin that fit both of its flights best, now that
+/// the jumps in v and l between them are known.
+fn settle(
+    unknowns: &mut RefinedUnknowns,
+    kinks: &[Kink],
+    choice: &[Option<&Pair>],
+    jumps: &[[Vector3<f64>; 2]],
+) {
     for (index, motion) in unknowns.bodies.iter_mut().enumerate() {
-        let kick = if index == 0 { impulse } else { -impulse * (-log_mass).exp() };
+        let [kick, jump] = &jumps[index];
         let kink = &kinks[index];
         let velocity = 0.5 * (kink.velocity_before + kink.velocity_after - kick);
         motion.velocity_before = velocity.into();
         let Some(pair) = choice[index] else { continue };
         let base = pair.before.world_from_body;
-        let jump = (contact - Vector3::from(motion.position)).cross(&kick);
         let mut after = pair.after.relative_to(&base);
         after -= Vector6::new(0.0, 0.0, 0.0, jump.x, jump.y, jump.z);
         let sum = pair.before.information + pair.after.information;

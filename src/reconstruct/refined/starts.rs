@@ -78,10 +78,12 @@ pub(super) fn starts(
 }
 
 /// Whether a fit may be bent so far that it is stuck: on a plane, where a body that rubs turns; between
-/// two bodies, where it misses the poses by far.
+/// two bodies, where it misses the poses by more than noise would in one scene of two hundred.
 fn is_bent(nested: &Fitted, scene: &Scene) -> bool {
-    const FAR: f64 = 2.0;
-    scene.plane().is_some() || !nested.has_stated_noise() || nested.chi2() > FAR * nested.numbers()
+    const IMPROBABLE: f64 = 3.0;
+    let spare = (nested.numbers() - nested.used()).max(1.0);
+    let misses = nested.chi2() > spare + IMPROBABLE * (2.0 * spare).sqrt();
+    scene.plane().is_some() || !nested.has_stated_noise() || misses
 }
 
 /// A value of a scanned parameter.
