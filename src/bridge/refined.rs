@@ -13,6 +13,8 @@ pub(crate) mod ffi {
         orientation: [f64; 4],
         orientation_std_rad: f64,
         has_orientation: bool,
+        /// Its σ over that of the scene's noise. Only Rust reads it, where it states the deviations.
+        noise_scale: f64,
     }
 
     /// A body that moves.

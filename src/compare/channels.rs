@@ -118,6 +118,8 @@ pub(super) struct Point {
     pub(super) value: f64,
     /// The pose's number among those of its side, and the axis there.
     pub(super) pose: usize,
+    /// Its σ over that of the noise.
+    pub(super) noise_scale: f64,
     along: nalgebra::Vector3<f64>,
 }
 
@@ -130,6 +132,7 @@ pub(super) fn points(scene: &Scene, side: &Side, axis: Axis, collision_time_s: f
             since_s: residual.time_s - collision_time_s,
             value: residual.in_channel(axis.channel())?.dot(&along),
             pose,
+            noise_scale: residual.noise_scale,
             along,
         })
     });
@@ -148,19 +151,19 @@ fn tested(
         .iter()
         .filter_map(|point| {
             let rows = leverage?.rows(side.body_index, axis.channel(), side.first + point.pose);
-            Some(point.along.transpose() * rows / stick.sigma)
+            Some(point.along.transpose() * rows / (stick.sigma * point.noise_scale))
         })
         .collect();
     let columns = rows.first().map_or(0, |row| row.ncols());
+    let in_sigma = |point: &Point| point.value / (stick.sigma * point.noise_scale);
+    let mean = |squares: f64| squares / points.len() as f64;
     let series = Series {
         since_s: points.iter().map(|point| point.since_s).collect(),
-        values: DVector::from_iterator(points.len(), points.iter().map(|p| p.value / stick.sigma)),
+        values: DVector::from_iterator(points.len(), points.iter().map(in_sigma)),
         taken: DMatrix::from_fn(points.len(), columns, |row, column| rows[row][column]),
         dof: stick.dof,
     };
     let verdict = series.verdict(draws);
-    let squares: f64 = points.iter().map(|point| point.value.powi(2)).sum();
-    let rmse = (squares / points.len() as f64).sqrt();
     let largest = points.iter().fold(&points[0], |most, point| {
         if point.value.abs() > most.value.abs() { point } else { most }
     });
@@ -169,13 +172,13 @@ fn tested(
         segment: side.segment,
         channel: axis,
         poses: points.len(),
-        rmse,
-        rmse_in_sigma: rmse / stick.sigma,
+        rmse: mean(points.iter().map(|point| point.value.powi(2)).sum()).sqrt(),
+        rmse_in_sigma: mean(points.iter().map(|point| in_sigma(point).powi(2)).sum()).sqrt(),
         largest: SignedMiss {
             time: largest.time_s,
             since_collision: largest.since_s,
             value: largest.value,
-            in_sigma: largest.value / stick.sigma,
+            in_sigma: in_sigma(largest),
         },
         farthest: points.iter().map(|point| point.since_s.abs()).fold(0.0, f64::max),
         z: deviate(verdict.p_value),

@@ -29,6 +29,8 @@ pub(super) struct PoseResidual {
     /// `None` where the result doesn't tell it.
     pub(super) omega_in_world: Option<Vector3<f64>>,
     pub(super) seen_in_world: Vector3<f64>,
+    /// Its σ over that of the noise.
+    pub(super) noise_scale: f64,
 }
 
 /// The residuals of one body on one side of the collision.
@@ -82,6 +84,7 @@ fn pose_residual(seen: &Observation, model: &Prediction) -> PoseResidual {
         velocity_in_world: model.velocity_in_world,
         omega_in_world: model.rotation.map(|rotation| rotation.omega_in_world),
         seen_in_world: seen.position_in_world,
+        noise_scale: seen.noise_scale,
     }
 }
 
@@ -147,9 +150,9 @@ fn summary(
     channel: Channel,
     noise: Option<&ComparedNoise>,
 ) -> Option<ChannelResidual> {
-    let vectors = side.poses.iter().filter_map(|one| Some((one.time_s, one.in_channel(channel)?)));
-    let sizes: Vec<(f64, f64)> = vectors.map(|(time, vector)| (time, vector.norm())).collect();
-    let &(time, size) = sizes.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let sizes: Vec<(&PoseResidual, f64)> =
+        side.poses.iter().filter_map(|one| Some((one, one.in_channel(channel)?.norm()))).collect();
+    let &(largest, size) = sizes.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let sigma = noise.and_then(|noise| match channel {
         Channel::Position => Some(noise.position),
         Channel::Orientation => noise.orientation,
@@ -157,7 +160,8 @@ fn summary(
     let squares: f64 = sizes.iter().map(|(_, size)| size * size).sum();
     let coordinates = 3.0 * sizes.len() as f64;
     let rmse = (squares / coordinates).sqrt();
-    let rmse_in_sigma = sigma.map(|sigma| rmse / sigma);
+    let scaled: f64 = sizes.iter().map(|(one, size)| (size / one.noise_scale).powi(2)).sum();
+    let rmse_in_sigma = sigma.map(|sigma| (scaled / coordinates).sqrt() / sigma);
     Some(ChannelResidual {
         body: side.body.name.clone(),
         segment: side.segment,
@@ -166,7 +170,11 @@ fn summary(
         rmse,
         rmse_in_sigma,
         stands_out: rmse_in_sigma.map(|rmse| stands_out(rmse, coordinates)),
-        largest: LargestMiss { time, size, in_sigma: sigma.map(|sigma| size / sigma) },
+        largest: LargestMiss {
+            time: largest.time_s,
+            size,
+            in_sigma: sigma.map(|sigma| size / (sigma * largest.noise_scale)),
+        },
     })
 }
 

@@ -37,6 +37,18 @@ pub struct ResidualPoint {
     pub value: f64,
     /// The side of the collision.
     pub segment: Segment,
+    /// The pose's own σ over `sigma`; 1 unless the scene states another.
+    #[serde(default = "as_noisy", skip_serializing_if = "is_as_noisy")]
+    pub noise_scale: f64,
+}
+
+fn as_noisy() -> f64 {
+    1.0
+}
+
+/// By reference, as serde asks.
+fn is_as_noisy(scale: &f64) -> bool {
+    *scale == 1.0
 }
 
 /// The residuals of `result` over time, by body and axis; axes that a body hasn't got are left out.
@@ -78,6 +90,7 @@ fn along(scene: &Scene, side: &Side, axis: Axis, collision_time_s: f64) -> Vec<R
         time: point.time_s,
         value: point.value,
         segment: side.segment,
+        noise_scale: point.noise_scale,
     };
     points(scene, side, axis, collision_time_s).into_iter().map(told).collect()
 }

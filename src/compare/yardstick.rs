@@ -33,9 +33,9 @@ impl Yardsticks {
     /// leave: √(RSS/(n − used)).
     pub(super) fn new(scene: &Scene, result: &Reconstruction, sides: &[Side]) -> Yardsticks {
         let of = |channel| {
-            let vectors = sides.iter().flat_map(|side| &side.poses);
-            let squares: Vec<f64> = vectors
-                .filter_map(|pose| pose.in_channel(channel))
+            let poses = sides.iter().flat_map(|side| &side.poses);
+            let squares: Vec<f64> = poses
+                .filter_map(|pose| Some(pose.in_channel(channel)? / pose.noise_scale))
                 .map(|vector| vector.norm_squared())
                 .collect();
             (3.0 * squares.len() as f64, squares.iter().sum::<f64>())
@@ -92,7 +92,7 @@ pub(super) fn outliers(sides: &[Side], yardsticks: &Yardsticks) -> Vec<Outlier> 
                     body: side.body.name.clone(),
                     time: pose.time_s,
                     channel: name.to_string(),
-                    deviations: size / stick.sigma,
+                    deviations: size / (stick.sigma * pose.noise_scale),
                 });
             }
         }

@@ -88,7 +88,7 @@ impl Row<'_> {
             return Err(self.wrong(columns.time, "is empty", "each pose needs its time"));
         };
         let (frame, time) = if columns.is_frame { (Some(time), None) } else { (None, Some(time)) };
-        Ok(Some(ObservationFile { frame, time, position, orientation }))
+        Ok(Some(ObservationFile { frame, time, position, orientation, noise_scale: None }))
     }
 
     /// The numbers of some cells; `None` if all of them are empty.

@@ -1,7 +1,9 @@
 //! The rules of bodies, their shapes and poses.
 
 use super::bounds::{MOST_OBSERVATIONS, POSITION_M, SIZE_M, TIME_S};
-use super::values::{check_range, needed, position, refuse, unit_quaternion, unit_vector};
+use super::values::{
+    check_noise_scale, check_range, needed, position, refuse, unit_quaternion, unit_vector,
+};
 use super::{
     BodyFile, DynamicBody, Observation, ObservationFile, Shape, StaticPlane, Warning, order,
 };
@@ -109,5 +111,7 @@ fn observation(place: &str, file: &ObservationFile, fps: Option<f64>) -> Result<
         None => None,
     };
     let position_in_world = position(&format!("{place}.position"), file.position)?;
-    Ok(Observation { time_s, position_in_world, world_from_body })
+    let noise_scale = file.noise_scale.unwrap_or(1.0);
+    check_noise_scale(&format!("{place}.noise_scale"), noise_scale)?;
+    Ok(Observation { time_s, position_in_world, world_from_body, noise_scale })
 }

@@ -21,6 +21,8 @@ pub(crate) const FPS: RangeInclusive<f64> = 1e-3..=1e7;
 pub(crate) const GRAVITY_M_S2: RangeInclusive<f64> = 0.0..=1e5;
 /// σ of positions in m, and of orientations in rad: a weight is its inverse square.
 pub(crate) const NOISE: RangeInclusive<f64> = 1e-12..=1e3;
+/// One pose's σ over the scene's: beyond, a pose is either all that counts or nothing.
+pub(crate) const NOISE_SCALE: RangeInclusive<f64> = 1e-3..=1e3;
 /// How far from 1 the length of a unit vector or quaternion may be; rounded text is within it.
 pub(crate) const UNIT_TOLERANCE: f64 = 1e-2;
 /// Poses of one body: a minute at 1600 frames per second.

@@ -193,4 +193,8 @@ pub struct ObservationFile {
     /// The quaternion [w, x, y, z] that maps the body to the world; absent when not measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<[f64; 4]>,
+    /// How many times as noisy this pose is as the others; 1 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.001, max = 1000))]
+    pub noise_scale: Option<f64>,
 }

@@ -57,6 +57,8 @@ pub struct Observation {
     pub position_in_world: Vector3<f64>,
     /// Maps the body to the world; `None` when it wasn't measured.
     pub world_from_body: Option<UnitQuaternion<f64>>,
+    /// Its σ over that of the scene's noise; 1 unless stated.
+    pub noise_scale: f64,
 }
 
 /// The infinitely heavy plane normal·p = height.
@@ -148,6 +150,7 @@ impl Scene {
                 time_s,
                 position_in_world: Vector3::zeros(),
                 world_from_body: Some(UnitQuaternion::identity()),
+                noise_scale: 1.0,
             };
             body.observations = times_s.into_iter().map(sample).collect();
         }

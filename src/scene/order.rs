@@ -75,5 +75,7 @@ fn is_same_pose(one: &Observation, other: &Observation) -> bool {
         (None, None) => true,
         _ => false,
     };
-    one.position_in_world == other.position_in_world && same_orientation
+    one.position_in_world == other.position_in_world
+        && same_orientation
+        && one.noise_scale == other.noise_scale
 }

@@ -64,6 +64,7 @@ impl From<&super::Observation> for ObservationFile {
             time: Some(seen.time_s),
             position: seen.position_in_world.into(),
             orientation: seen.world_from_body.as_ref().map(to_wxyz),
+            noise_scale: (seen.noise_scale != 1.0).then_some(seen.noise_scale),
         }
     }
 }

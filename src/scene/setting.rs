@@ -154,6 +154,7 @@ fn dynamic(place: &str, body: &SettingBody) -> Result<DynamicBody> {
         time_s,
         position_in_world: Vector3::zeros(),
         world_from_body: Some(UnitQuaternion::identity()),
+        noise_scale: 1.0,
     };
     Ok(DynamicBody { name: body.name.clone(), shape, observations: body.seen.map(pose).into() })
 }

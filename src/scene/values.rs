@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use super::Noise;
-use super::bounds::{LONGEST_NAME, NOISE, POSITION_M, UNIT_TOLERANCE};
+use super::bounds::{LONGEST_NAME, NOISE, NOISE_SCALE, POSITION_M, UNIT_TOLERANCE};
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::words::{limit, quoted, rounded};
 use crate::{Error, Result};
@@ -88,6 +88,13 @@ pub(crate) fn check_noise(place: &str, noise: &Noise) -> Result<()> {
     check_range(&format!("{place}.position"), noise.position, &NOISE, mend)?;
     let mend = "give one σ in rad, above 0; where no orientation is measured, any will do";
     check_range(&format!("{place}.orientation"), noise.orientation, &NOISE, mend)
+}
+
+/// One pose's σ over the scene's.
+pub(crate) fn check_noise_scale(place: &str, scale: f64) -> Result<()> {
+    let mend =
+        "give how many times as noisy the pose is as the others; 1, or nothing, for as noisy";
+    check_range(place, scale, &NOISE_SCALE, mend)
 }
 
 /// A field that this kind of body has.

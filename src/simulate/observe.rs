@@ -80,6 +80,7 @@ fn dynamic_body(actor: &Actor, poses: &[Pose], is_orientation_measured: bool) ->
         time: if instant.frame.is_none() { Some(instant.time_s) } else { None },
         position: pose.position,
         orientation: is_orientation_measured.then_some(pose.orientation),
+        noise_scale: None,
     });
     BodyFile {
         name: actor.name.clone(),

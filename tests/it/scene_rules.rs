@@ -38,6 +38,11 @@ const RULES: &[Rule] = &[
     ),
     (|s| s["noise"] = json!({"position": 1}), "noise", &["`orientation` is missing"]),
     (
+        |s| s["bodies"][0]["observations"][1]["noise_scale"] = json!(0),
+        "bodies[0].observations[1].noise_scale",
+        &["0.0", "how many times as noisy"],
+    ),
+    (
         |s| s["camera"] = json!({"position": [0, 0, 1e9]}),
         "camera.position[2]",
         &["1000000000.0", "in m"],

@@ -5,10 +5,9 @@ use nalgebra::Vector3;
 use super::super::result::Fit;
 use super::internal::InternalScene;
 use super::phases::Solved;
-use crate::Result;
 use crate::bridge::paper::ffi;
 use crate::rigid_body::quaternion::from_wxyz;
-use crate::scene::Noise;
+use crate::{Result, Scene};
 
 /// Sums of squares over the measured numbers.
 #[derive(Default)]
@@ -17,19 +16,17 @@ struct SquaredResiduals {
     position_count: usize,
     orientation_rad2: f64,
     orientation_count: usize,
+    /// Over the stated noise, if it is.
+    chi2: Option<f64>,
 }
 
-/// Compares the model with every pose. `noise`: the scene's, if stated.
-pub(super) fn fit(internal: &InternalScene, solved: &Solved, noise: Option<Noise>) -> Result<Fit> {
-    let squares = squared_residuals(internal, solved)?;
+/// Compares the model with every pose.
+pub(super) fn fit(scene: &Scene, internal: &InternalScene, solved: &Solved) -> Result<Fit> {
+    let squares = squared_residuals(scene, internal, solved)?;
     let measured = squares.position_count + squares.orientation_count;
     let dof = measured as i64 - free_parameters(internal) as i64;
-    let chi2 = noise.map(|noise| {
-        squares.position_m2 / noise.position.powi(2)
-            + squares.orientation_rad2 / noise.orientation.powi(2)
-    });
     let unmeasured = (squares.orientation_count == 0).then_some("no orientation was fitted");
-    let untested = match (noise, dof) {
+    let untested = match (scene.noise(), dof) {
         (None, _) => Some("the scene states no noise"),
         (_, ..=0) => Some("there are no more measured numbers than free parameters"),
         _ => None,
@@ -39,28 +36,40 @@ pub(super) fn fit(internal: &InternalScene, solved: &Solved, noise: Option<Noise
         position_rmse: (squares.position_m2 / squares.position_count as f64).sqrt(),
         orientation_rmse: (squares.orientation_count > 0)
             .then(|| (squares.orientation_rad2 / squares.orientation_count as f64).sqrt()),
-        chi2,
+        chi2: squares.chi2,
         dof,
-        reduced_chi2: chi2.filter(|_| dof > 0).map(|chi2| chi2 / dof as f64),
+        reduced_chi2: squares.chi2.filter(|_| dof > 0).map(|chi2| chi2 / dof as f64),
         cost: solved.cost,
         reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
     })
 }
 
-fn squared_residuals(internal: &InternalScene, solved: &Solved) -> Result<SquaredResiduals> {
-    let mut squares = SquaredResiduals::default();
+fn squared_residuals(
+    scene: &Scene,
+    internal: &InternalScene,
+    solved: &Solved,
+) -> Result<SquaredResiduals> {
+    let noise = scene.noise();
+    let mut squares = SquaredResiduals { chi2: noise.map(|_| 0.0), ..SquaredResiduals::default() };
     for (index, body) in internal.paper.bodies.iter().enumerate() {
         let times: Vec<f64> = body.observations.iter().map(|o| o.time_frames).collect();
         let (paper, unknowns) = (&internal.paper, &solved.unknowns);
         let poses =
             ffi::predict_paper_poses(paper, solved.collision_frames, unknowns, index, &times)
                 .map_err(super::solver_error)?;
-        for (seen, model) in body.observations.iter().zip(&poses) {
+        let scales = scene.bodies()[index].observations.iter().map(|seen| seen.noise_scale);
+        for ((seen, model), scale) in body.observations.iter().zip(&poses).zip(scales) {
+            let mut add = |square: f64, sigma: Option<f64>| {
+                let whole = squares.chi2.iter_mut().zip(sigma);
+                whole.for_each(|(chi2, sigma)| *chi2 += square / (scale * sigma).powi(2));
+            };
             let difference = Vector3::from(model.position) - Vector3::from(seen.position);
+            add(difference.norm_squared(), noise.map(|noise| noise.position));
             squares.position_m2 += difference.norm_squared();
             squares.position_count += 3;
             if body.has_spin && seen.has_orientation {
                 let angle = from_wxyz(seen.orientation).angle_to(&from_wxyz(model.orientation));
+                add(angle * angle, noise.map(|noise| noise.orientation));
                 squares.orientation_rad2 += angle * angle;
                 squares.orientation_count += 3;
             }

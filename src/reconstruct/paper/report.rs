@@ -24,7 +24,7 @@ pub(super) fn reconstruction(
     solved: &Solved,
 ) -> Result<Reconstruction> {
     let states = states(scene, internal, solved)?;
-    let fit = fit(internal, solved, scene.noise())?;
+    let fit = fit(scene, internal, solved)?;
     let jumps: Vec<f64> = states.iter().map(States::jump_m_s).collect();
     let push = push::visible(
         internal,

@@ -186,11 +186,12 @@ impl Fitted {
                 false => 0.0,
             }
         };
-        let [before, after] = [self, larger].map(|fitted| &fitted.best().solution);
+        let [before, after] =
+            [self, larger].map(|fitted| positions(&fitted.refined, &fitted.best().solution));
         let [turned, turned_after] =
             [self, larger].map(|fitted| turns(&fitted.refined, &fitted.best().solution));
         let KnownNoise { position_dof, orientation_dof, .. } = larger.noise;
-        of(positions(before), positions(after), LEAST_NOISE.position, position_dof)
+        of(before, after, LEAST_NOISE.position, position_dof)
             + of(turned, turned_after, LEAST_NOISE.orientation, orientation_dof)
     }
 
@@ -232,7 +233,7 @@ impl Fitted {
     /// How many numbers were measured.
     pub(crate) fn numbers(&self) -> f64 {
         let solution = &self.best().solution;
-        positions(solution).0 + turns(&self.refined, solution).0
+        positions(&self.refined, solution).0 + turns(&self.refined, solution).0
     }
 
     /// Whether the noise was stated.

@@ -11,7 +11,7 @@ use crate::scene::{DynamicBody, Noise, Observation};
 /// Fewer orientations of a body say nothing of its spin.
 const LEAST_ORIENTATIONS: usize = 2;
 
-/// The scene in the solver's terms, with one noise for all poses.
+/// The scene in the solver's terms, with one noise for all poses but for their own scales.
 pub(crate) fn refined_scene(scene: &Scene, noise: Noise, tilt_std_rad: f64) -> RefinedScene {
     let down = -scene.up_in_world().into_inner();
     let first = across(&down);
@@ -30,11 +30,11 @@ pub(crate) fn refined_scene(scene: &Scene, noise: Noise, tilt_std_rad: f64) -> R
     }
 }
 
-/// Gives all poses another noise.
+/// Gives all poses another noise, each by its scale.
 pub(super) fn set_noise(scene: &mut RefinedScene, noise: Noise) {
     for pose in scene.bodies.iter_mut().flat_map(|body| &mut body.poses) {
-        pose.position_std_m = noise.position;
-        pose.orientation_std_rad = noise.orientation;
+        pose.position_std_m = noise.position * pose.noise_scale;
+        pose.orientation_std_rad = noise.orientation * pose.noise_scale;
     }
 }
 
@@ -67,9 +67,10 @@ fn refined_pose(seen: &Observation, noise: Noise) -> RefinedPose {
     RefinedPose {
         time_s: seen.time_s,
         position: seen.position_in_world.into(),
-        position_std_m: noise.position,
+        position_std_m: noise.position * seen.noise_scale,
         orientation: seen.world_from_body.map_or([1.0, 0.0, 0.0, 0.0], |q| to_wxyz(&q)),
-        orientation_std_rad: noise.orientation,
+        orientation_std_rad: noise.orientation * seen.noise_scale,
         has_orientation: seen.world_from_body.is_some(),
+        noise_scale: seen.noise_scale,
     }
 }

@@ -84,7 +84,7 @@ fn estimated_noise(scene: &RefinedScene, optimum: &Optimum, noise: Noise) -> Kno
     let solution = &optimum.solution;
     let used = |channel: &[f64]| optimum.used(channel);
     let (position, position_dof) = channel_noise(
-        positions(solution),
+        positions(scene, solution),
         used(&solution.position_information),
         noise.position,
         LEAST_NOISE.position,
@@ -98,17 +98,24 @@ fn estimated_noise(scene: &RefinedScene, optimum: &Optimum, noise: Noise) -> Kno
     KnownNoise { value: Noise { position, orientation }, position_dof, orientation_dof }
 }
 
-/// How many position coordinates there are, and the sum of their squared residuals, m².
-pub(super) fn positions(solution: &RefinedSolution) -> (f64, f64) {
-    let squares = solution.residuals.iter().map(|residual| square(&residual.position_m));
+/// How many position coordinates there are, and the sum of their squared residuals, m²: each as if its
+/// pose were as noisy as the others.
+pub(super) fn positions(scene: &RefinedScene, solution: &RefinedSolution) -> (f64, f64) {
+    let poses = scene.bodies.iter().flat_map(|body| &body.poses);
+    let squares = poses
+        .zip(&solution.residuals)
+        .map(|(pose, residual)| square(&residual.position_m) / pose.noise_scale.powi(2));
     (3.0 * solution.residuals.len() as f64, squares.sum())
 }
 
 /// The same of orientations, rad²; the residual of what isn't annotated is zero.
 pub(super) fn turns(scene: &RefinedScene, solution: &RefinedSolution) -> (f64, f64) {
+    let poses = scene.bodies.iter().flat_map(|body| &body.poses);
+    let squares = poses
+        .zip(&solution.residuals)
+        .map(|(pose, residual)| square(&residual.turn_rad) / pose.noise_scale.powi(2));
     let spinning = scene.bodies.iter().filter(|body| body.has_spin);
     let oriented = spinning.flat_map(|body| &body.poses).filter(|pose| pose.has_orientation);
-    let squares = solution.residuals.iter().map(|residual| square(&residual.turn_rad));
     (3.0 * oriented.count() as f64, squares.sum())
 }
 

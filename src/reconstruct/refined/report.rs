@@ -3,7 +3,7 @@
 use super::alternatives::alternatives;
 use super::fitted::Fitted;
 use super::layout::Layout;
-use super::noise::{KnownNoise, is_known, positions, turns};
+use super::noise::{KnownNoise, is_known, positions, square, turns};
 use super::parameters::{effects, parameter_names};
 use super::profile::{Held, Profile};
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
@@ -226,12 +226,16 @@ fn bodies(scene: &Scene, collision: &Collision, deviations: &Deviations) -> Vec<
 
 fn fit(scene: &Scene, fitted: &Fitted) -> Fit {
     let best = fitted.best();
-    let (positions, position_m2) = positions(&best.solution);
+    let (positions, position_m2) = positions(&fitted.refined, &best.solution);
     let (turns, turn_rad2) = turns(&fitted.refined, &best.solution);
     let noise = fitted.noise.value;
     let stated = scene.noise().is_some();
     let chi2 = stated
         .then(|| position_m2 / noise.position.powi(2) + turn_rad2 / noise.orientation.powi(2));
+    // What the poses are off by, however noisy each is.
+    let residuals = &best.solution.residuals;
+    let rmse_m2: f64 = residuals.iter().map(|residual| square(&residual.position_m)).sum();
+    let rmse_rad2: f64 = residuals.iter().map(|residual| square(&residual.turn_rad)).sum();
     let dof = (positions + turns - fitted.used()).round() as i64;
     let unmeasured = (turns == 0.0).then_some(NO_ORIENTATION);
     let untested = match (stated, dof) {
@@ -241,8 +245,8 @@ fn fit(scene: &Scene, fitted: &Fitted) -> Fit {
     };
     let reasons: Vec<&str> = unmeasured.into_iter().chain(untested).collect();
     Fit {
-        position_rmse: (position_m2 / positions).sqrt(),
-        orientation_rmse: (turns > 0.0).then(|| (turn_rad2 / turns).sqrt()),
+        position_rmse: (rmse_m2 / positions).sqrt(),
+        orientation_rmse: (turns > 0.0).then(|| (rmse_rad2 / turns).sqrt()),
         chi2,
         dof,
         reduced_chi2: chi2.filter(|_| dof > 0).map(|chi2| chi2 / dof as f64),
@@ -263,7 +267,7 @@ fn judged_fit(fit: &Fit, outliers: &[Outlier], fitted: &Fitted) -> Fit {
         let left = (squares - wrong_squares).max(0.0) / (count - wrong_count);
         if left.is_finite() { left.sqrt() } else { 0.0 }
     };
-    let position_rmse = rest("position", positions(solution), noise.position);
+    let position_rmse = rest("position", positions(&fitted.refined, solution), noise.position);
     let orientation_rmse = rest("orientation", turns(&fitted.refined, solution), noise.orientation);
     let wrong: f64 = outliers.iter().map(|outlier| outlier.deviations.powi(2)).sum();
     let dof = fit.dof - 3 * outliers.len() as i64;

@@ -7,7 +7,7 @@
 
 use super::noise::{KnownNoise, LEAST_NOISE, square};
 use super::optimum::{Optimum, warm};
-use crate::bridge::refined::ffi::{RefinedResidual, RefinedScene, RefinedSolution};
+use crate::bridge::refined::ffi::{RefinedPose, RefinedResidual, RefinedScene, RefinedSolution};
 use crate::reconstruct::{Loss, Outlier};
 use crate::scene::Noise;
 use crate::{Error, Result, Scene};
@@ -71,14 +71,16 @@ fn inflate(scene: &mut RefinedScene, optimum: &Optimum, noise: Noise) {
     }
 }
 
-/// The squared residuals of all positions, and of all orientations that were annotated.
+/// The squared residuals of all positions, and of all orientations that were annotated; each as if its
+/// pose were as noisy as the others.
 fn squares(scene: &RefinedScene, solution: &RefinedSolution) -> (Vec<f64>, Vec<f64>) {
     let poses = scene.bodies.iter().flat_map(|body| body.poses.iter().map(|p| (body.has_spin, p)));
     let (mut positions, mut turns) = (Vec::new(), Vec::new());
     for ((has_spin, pose), residual) in poses.zip(&solution.residuals) {
-        positions.push(square(&residual.position_m));
+        let scale = pose.noise_scale.powi(2);
+        positions.push(square(&residual.position_m) / scale);
         if has_spin && pose.has_orientation {
-            turns.push(square(&residual.turn_rad));
+            turns.push(square(&residual.turn_rad) / scale);
         }
     }
     (positions, turns)
@@ -120,8 +122,8 @@ pub(super) fn outliers(
         for pose in &refined.poses {
             let Some(residual) = residuals.next() else { break };
             let channels = [
-                ("position", square(&residual.position_m) / noise.position.powi(2)),
-                ("orientation", square(&residual.turn_rad) / noise.orientation.powi(2)),
+                ("position", over(&residual.position_m, pose, noise.position)),
+                ("orientation", over(&residual.turn_rad, pose, noise.orientation)),
             ];
             for (channel, square) in channels {
                 if square > OUTLIER {
@@ -140,16 +142,26 @@ pub(super) fn outliers(
 }
 
 /// What a pose's residuals cost: ½ r² of each channel, or Student's ½ (ν + 3) ln(1 + r²/ν).
-pub(super) fn residual_cost(residual: &RefinedResidual, noise: Noise, loss: Loss) -> f64 {
+pub(super) fn residual_cost(
+    pose: &RefinedPose,
+    residual: &RefinedResidual,
+    noise: Noise,
+    loss: Loss,
+) -> f64 {
     let squares = [
-        square(&residual.position_m) / noise.position.powi(2),
-        square(&residual.turn_rad) / noise.orientation.powi(2),
+        over(&residual.position_m, pose, noise.position),
+        over(&residual.turn_rad, pose, noise.orientation),
     ];
     let cost = |square: f64| match loss {
         Loss::Squares => 0.5 * square,
         Loss::Robust => 0.5 * (NU + 3.0) * (1.0 + square / NU).ln(),
     };
     squares.map(cost).iter().sum()
+}
+
+/// A squared residual over the noise of its pose.
+fn over(residual: &[f64; 3], pose: &RefinedPose, noise: f64) -> f64 {
+    square(residual) / (noise * pose.noise_scale).powi(2)
 }
 
 /// Gives each pose the deviation σ/√w; returns the largest relative change of one.
@@ -163,8 +175,9 @@ fn weigh(scene: &mut RefinedScene, solution: &RefinedSolution, noise: Noise) -> 
             largest = largest.max((new / *std - 1.0).abs());
             *std = new;
         };
-        put(&mut pose.position_std_m, &residual.position_m, noise.position);
-        put(&mut pose.orientation_std_rad, &residual.turn_rad, noise.orientation);
+        let scale = pose.noise_scale;
+        put(&mut pose.position_std_m, &residual.position_m, scale * noise.position);
+        put(&mut pose.orientation_std_rad, &residual.turn_rad, scale * noise.orientation);
     }
     largest
 }

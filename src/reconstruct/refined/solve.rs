@@ -114,9 +114,10 @@ impl Attempt {
         let score = |attempt: &Attempt| {
             let solution = &attempt.optima[0].solution;
             let noise = attempt.noise.value;
-            let (position_count, _) = positions(solution);
+            let (position_count, _) = positions(scene, solution);
             let (turn_count, _) = turns(scene, solution);
-            let cost: f64 = solution.residuals.iter().map(|r| residual_cost(r, noise, loss)).sum();
+            let poses = scene.bodies.iter().flat_map(|body| &body.poses).zip(&solution.residuals);
+            let cost: f64 = poses.map(|(pose, r)| residual_cost(pose, r, noise, loss)).sum();
             cost + position_count * noise.position.ln() + turn_count * noise.orientation.ln()
         };
         score(self) < score(other)
@@ -139,7 +140,7 @@ fn misses_turns(scene: &RefinedScene, attempt: &Attempt) -> bool {
         Some(spare) => squares > spare.max(1.0) * VISIBLE_RAD * VISIBLE_RAD,
         None => {
             let noise = attempt.noise.value;
-            let (numbers, position_squares) = positions(solution);
+            let (numbers, position_squares) = positions(scene, solution);
             let spare = (numbers + count - solution.size as f64).max(1.0);
             // From the residuals: weights of a robust fit would hide them.
             let chi2 =

@@ -182,6 +182,7 @@ fn filled(mut file: SceneFile, steps: u32, collision_s: f64) -> SceneFile {
                 time: None,
                 position: (p.lerp(&q, share) + Vector3::y() * sag).into(),
                 orientation: Some([turned.w, turned.i, turned.j, turned.k]),
+                noise_scale: None,
             }
         });
         body.observations = Some(filled.collect());

@@ -6,6 +6,7 @@ mod conservation;
 mod exact;
 mod hostile;
 mod invariance;
+mod noise_scale;
 mod range;
 mod robust;
 mod uncertainty;

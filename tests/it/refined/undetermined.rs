@@ -34,6 +34,7 @@ fn in_flight(name: &str, position: [f64; 3], velocity: [f64; 3], spin: [f64; 3])
             time: Some(t),
             position: at.into(),
             orientation: Some([q.w, q.i, q.j, q.k]),
+            noise_scale: None,
         }
     };
     BodyFile {

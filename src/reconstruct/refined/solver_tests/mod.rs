@@ -133,6 +133,7 @@ impl Case {
                         orientation: to_wxyz(&q),
                         orientation_std_rad: 0.01,
                         has_orientation: true,
+                        noise_scale: 1.0,
                     }
                 })
                 .collect();
