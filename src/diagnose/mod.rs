@@ -8,6 +8,7 @@
 
 mod advice;
 mod candidates;
+mod dependence;
 mod diagnosis;
 mod evidence;
 mod forms;

@@ -7,23 +7,28 @@ use super::{Candidate, OtherLaw};
 pub(crate) const TELLS_APART: f64 = 10.0;
 
 /// The probability of each candidate, and that of none, by Schwarz's criterion and equal odds
-/// beforehand, also of `other_laws`.
-pub(super) fn probabilities(candidates: &[Candidate], other_laws: &[OtherLaw]) -> (Vec<f64>, f64) {
+/// beforehand, also of `other_laws`; its differences count for less by `inflation`.
+pub(super) fn probabilities(
+    candidates: &[Candidate],
+    other_laws: &[OtherLaw],
+    inflation: f64,
+) -> (Vec<f64>, f64) {
     let all = candidates.iter().map(|one| one.bic).chain(other_laws.iter().map(|law| law.bic));
     let least = all.clone().fold(0.0, f64::min);
-    let weight = |bic: f64| (-0.5 * (bic - least)).exp();
+    let weight = |bic: f64| (-0.5 * (bic - least) / inflation).exp();
     let none = weight(0.0);
     let total: f64 = none + all.map(weight).sum::<f64>();
     (candidates.iter().map(|c| weight(c.bic) / total).collect(), none / total)
 }
 
-/// The places of the candidates that the data can't tell from number `index`.
-pub(crate) fn look_alikes(candidates: &[Candidate], index: usize) -> Vec<usize> {
+/// The places of the candidates that the data can't tell from number `index`, where differences count
+/// for less by `inflation`.
+pub(crate) fn look_alikes(candidates: &[Candidate], index: usize, inflation: f64) -> Vec<usize> {
     let own = &candidates[index];
     let is_alike = |other: &usize| {
         *other != index
             && candidates[*other].stands_out() == own.stands_out()
-            && (candidates[*other].bic - own.bic).abs() < TELLS_APART
+            && (candidates[*other].bic - own.bic).abs() < TELLS_APART * inflation
     };
     (0..candidates.len()).filter(is_alike).collect()
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use super::dependence::inflation;
 use super::diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, ThrowEstimate, Verdict,
 };
@@ -45,14 +46,18 @@ pub fn diagnose_throws(
         None => false,
     };
     let explains = |rest: &Vec<Throw>| misses_m2(rest) < EXPLAINS * misses_m2(&throws);
-    let verdict = match rest {
-        Some(rest) if !stays_structured || explains(&rest) => Verdict::Missing,
+    let verdict = match &rest {
+        Some(rest) if !stays_structured || explains(rest) => Verdict::Missing,
         Some(_) => Verdict::UnknownEffect,
         None if is_structured => Verdict::UnknownEffect,
         None => Verdict::NothingMissing,
     };
+    let inflation = match &rest {
+        Some(rest) if stays_structured => mean_inflation(rest),
+        _ => 1.0,
+    };
     let least = candidates.iter().map(|c| c.bic).fold(0.0, f64::min);
-    let weight = |bic: f64| (-0.5 * (bic - least)).exp();
+    let weight = |bic: f64| (-0.5 * (bic - least) / inflation).exp();
     let total: f64 = weight(0.0) + candidates.iter().map(|c| weight(c.bic)).sum::<f64>();
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     // The verdict is about the best that can be flown: it is named first.
@@ -63,7 +68,8 @@ pub fn diagnose_throws(
         .iter()
         .take(told)
         .filter_map(|&index| {
-            report(&throws, &candidates, index, weight(candidates[index].bic) / total)
+            let probability = weight(candidates[index].bic) / total;
+            report(&throws, &candidates, index, (probability, inflation))
         })
         .collect();
     let names: Vec<String> = scenes.iter().map(|scene| scene.name().to_string()).collect();
@@ -124,6 +130,10 @@ fn with_effect<'a>(throws: &[Throw<'a>], effect: &PooledCandidate) -> Result<Vec
     throws.iter().enumerate().map(with).collect()
 }
 
+fn mean_inflation(throws: &[Throw]) -> f64 {
+    throws.iter().map(|throw| inflation(&throw.fitted)).sum::<f64>() / throws.len() as f64
+}
+
 /// The sum of the mean squares by which unseen positions are missed, m².
 fn misses_m2(throws: &[Throw]) -> f64 {
     throws.iter().filter_map(|throw| held_out_rmse_m(&throw.fitted)).map(|rmse| rmse * rmse).sum()
@@ -157,7 +167,7 @@ fn report(
     throws: &[Throw],
     candidates: &[PooledCandidate],
     index: usize,
-    probability: f64,
+    (probability, inflation): (f64, f64),
 ) -> Option<CandidateReport> {
     let candidate = &candidates[index];
     let (throw, own) =
@@ -166,7 +176,7 @@ fn report(
     let alike = candidates.iter().enumerate().filter(|(other, one)| {
         *other != index
             && one.stands_out() == candidate.stands_out()
-            && (one.bic - candidate.bic).abs() < TELLS_APART
+            && (one.bic - candidate.bic).abs() < TELLS_APART * inflation
     });
     let each = throws.iter().zip(&candidate.own).filter_map(|(throw, own)| {
         let own = own.as_ref()?;

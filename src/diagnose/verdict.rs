@@ -1,6 +1,7 @@
 //! From the evidence to an answer.
 
 use super::advice::advice;
+use super::dependence::inflation;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 use super::leftover::Leftover;
 use super::ranking::{TELLS_APART, look_alikes, probabilities};
@@ -33,6 +34,10 @@ pub(super) fn diagnosis(
     let first = candidates.iter().find(|candidate| candidate.stands_out());
     let rest = first.map(|first| Leftover::of(scene, &first.fitted)).transpose()?;
     let stays_structured = rest.as_ref().is_some_and(Leftover::is_structured);
+    let inflation = match first {
+        Some(first) if stays_structured => inflation(&first.fitted),
+        _ => 1.0,
+    };
     // Where the noise isn't known, what is left says little of a second.
     let second = match stays_structured && fitted.has_stated_noise() {
         true => second(scene, &candidates, &instances),
@@ -43,7 +48,7 @@ pub(super) fn diagnosis(
         None => Vec::new(),
     };
     other_laws.retain(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)));
-    let (odds, none) = probabilities(&candidates, &other_laws);
+    let (odds, none) = probabilities(&candidates, &other_laws, inflation);
     let verdict = match (first, &rest) {
         (Some(first), Some(rest)) => {
             let bic = second.as_ref().map_or(first.bic, |(bic, _)| bic.min(first.bic));
@@ -68,7 +73,7 @@ pub(super) fn diagnosis(
     let reports = order
         .iter()
         .take(told)
-        .map(|&index| report(scene, &result, &candidates, index, odds[index]))
+        .map(|&index| report(scene, &result, &candidates, index, (odds[index], inflation)))
         .collect::<Result<Vec<_>>>()?;
     let mut diagnosis = Diagnosis {
         schema: DIAGNOSIS_SCHEMA.to_string(),
@@ -135,14 +140,14 @@ fn report(
     before: &Reconstruction,
     candidates: &[Candidate],
     index: usize,
-    probability: f64,
+    (probability, inflation): (f64, f64),
 ) -> Result<CandidateReport> {
     let candidate = &candidates[index];
     let after = reported(scene, &candidate.fitted)?;
     let shifts = shifts(before, &after);
     let effect = after.effects.into_iter().next_back();
     let instance = candidate.instance();
-    let alike = look_alikes(candidates, index).into_iter();
+    let alike = look_alikes(candidates, index, inflation).into_iter();
     Ok(CandidateReport {
         effect: instance.effect.name.clone(),
         body: instance.body.map(|body| scene.bodies()[body].name.clone()),

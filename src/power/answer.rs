@@ -121,7 +121,7 @@ fn alike(film: &Film, axis: &Axis, size: f64) -> Result<Option<Alike>> {
     let own = (0..found.len()).find(is_own).filter(|place| found[*place].stands_out());
     Ok(own.map(|own| Alike {
         size,
-        effects: look_alikes(&found, own)
+        effects: look_alikes(&found, own, 1.0)
             .into_iter()
             .map(|other| found[other].instance().label(&shown.scene))
             .collect(),

@@ -1,0 +1,83 @@
+//! How much less residuals tell than their number says, where something is left in them: they come in
+//! waves, and are larger than the noise. Differences of χ² shrink by as much (quasi-likelihood:
+//! Burnham & Anderson, *Model Selection and Multimodel Inference*, 2002, section 2.5).
+
+use std::ops::Range;
+
+use crate::reconstruct::refined::Fitted;
+
+/// Shorter series show no waves.
+const SHORTEST: usize = 8;
+
+/// The factor by which χ² exceeds that of as much independent noise, at least 1: the reduced χ², where
+/// the noise is stated, times the number of neighbours that say the same.
+pub(super) fn inflation(fitted: &Fitted) -> f64 {
+    let spare = (fitted.numbers() - fitted.used()).max(1.0);
+    let size = match fitted.has_stated_noise() {
+        true => (fitted.chi2() / spare).max(1.0),
+        false => 1.0,
+    };
+    size * waves(fitted)
+}
+
+/// The mean of all flights' and coordinates' correlation lengths, by their squares.
+fn waves(fitted: &Fitted) -> f64 {
+    let residuals = &fitted.best().solution.residuals;
+    let (mut lengths, mut squares) = (0.0, 0.0);
+    for flight in flights(fitted) {
+        for axis in 0..6 {
+            let series = residuals[flight.clone()].iter().map(|residual| match axis {
+                0..3 => residual.position_m[axis],
+                _ => residual.turn_rad[axis - 3],
+            });
+            let series: Vec<f64> = series.collect();
+            // In units of the noise, so that positions and turns count alike.
+            let noise = match axis {
+                0..3 => fitted.noise.value.position,
+                _ => fitted.noise.value.orientation,
+            };
+            let square: f64 = series.iter().map(|x| (x / noise).powi(2)).sum();
+            if series.len() >= SHORTEST && square > 0.0 {
+                lengths += square * correlation_length(&series);
+                squares += square;
+            }
+        }
+    }
+    if squares > 0.0 { (lengths / squares).max(1.0) } else { 1.0 }
+}
+
+/// Each flight's residuals.
+fn flights(fitted: &Fitted) -> Vec<Range<usize>> {
+    let mut flights = Vec::new();
+    let mut first = 0;
+    for body in &fitted.refined.bodies {
+        let split = body.poses.partition_point(|pose| pose.time_s < fitted.collision_time_s());
+        let end = first + body.poses.len();
+        flights.extend([first..first + split, first + split..end]);
+        first = end;
+    }
+    flights
+}
+
+/// 1 + 2 Σ ρ, summed as long as neighbouring pairs of correlations stay positive (Geyer, *Practical
+/// Markov Chain Monte Carlo*, 1992).
+fn correlation_length(series: &[f64]) -> f64 {
+    let at = |lag: usize| -> f64 { series.iter().zip(&series[lag..]).map(|(a, b)| a * b).sum() };
+    let own = at(0);
+    let pairs = (1..series.len() / 2).step_by(2).map(|lag| (at(lag) + at(lag + 1)) / own);
+    1.0 + 2.0 * pairs.take_while(|pair| *pair > 0.0).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_comes_in_waves_says_less_than_what_does_not() {
+        let wave: Vec<f64> = (0..64).map(|i| (0.1 * f64::from(i)).sin()).collect();
+        let turns: Vec<f64> = (0..64).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        // A quarter of a wave of 63 says the same; signs that alternate say no less than they are.
+        assert!((10.0..30.0).contains(&correlation_length(&wave)), "{}", correlation_length(&wave));
+        assert!(correlation_length(&turns) <= 1.0);
+    }
+}
