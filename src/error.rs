@@ -88,6 +88,11 @@ impl Error {
         self.kind
     }
 
+    /// The file, if known.
+    pub fn file(&self) -> Option<&str> {
+        self.file.as_deref()
+    }
+
     /// Where in the file, if known.
     pub fn place(&self) -> Option<&str> {
         self.place.as_deref()

@@ -24,7 +24,7 @@ pub struct Arguments {
     /// Where the session is saved (smash.session/1); beside the scene as NAME.session.json unless named
     #[arg(long, value_name = "FILE")]
     session: Option<PathBuf>,
-    /// The port; a free one unless named
+    /// The port; the session's own unless named, so that the browser finds again what it keeps
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
     /// Don't open the browser
@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     require_page()?;
     let studio = Studio::open(&arguments.scene, arguments.session.as_deref())?;
     super::warn(studio.scene().warnings());
-    let server = Server::bind(arguments.port)?;
+    let server = Server::bind(arguments.port, &studio)?;
     let address = server.address();
     let told = match arguments.json {
         true => format!("{}\n", json!({"address": address, "session": studio.session_file()})),

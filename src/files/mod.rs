@@ -8,7 +8,7 @@ mod place;
 pub(crate) use digest::sha256;
 pub use folder::OutputFolder;
 pub use output::{Output, check_distinct, write_together};
-pub(crate) use place::folder_of;
+pub(crate) use place::{folder_of, is_same_file_as};
 
 use std::fs::File;
 use std::io::{self, Read, Write};

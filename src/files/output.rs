@@ -81,6 +81,14 @@ impl Output {
         &self.path
     }
 
+    /// Where it ends: links are followed.
+    pub(crate) fn target(&self) -> &Path {
+        match &self.kind {
+            OutputKind::File { target } => target,
+            OutputKind::StandardOutput | OutputKind::Stream => &self.path,
+        }
+    }
+
     fn failure(&self, error: &io::Error) -> Error {
         let target = match &self.kind {
             OutputKind::File { target } => Some(target.as_path()),
@@ -156,11 +164,17 @@ impl Staged<'_> {
                 .open(&self.output.path)
                 .and_then(|mut stream| stream.write_all(bytes)),
             Content::Beside(file, target) => {
-                file.persist(target).map(drop).map_err(|error| error.error)
+                file.persist(target).map_err(|error| error.error).map(|_| settle(target))
             }
         };
         written.map_err(|error| self.output.failure(&error))
     }
+}
+
+/// Makes the new name last, too, should the power fail now.
+fn settle(target: &Path) {
+    // Where a folder can't be opened or synchronised, the system sees to it.
+    let _ = File::open(folder_of(target)).and_then(|folder| folder.sync_all());
 }
 
 /// A temporary file beside `target` that holds `bytes`, with the mode of what it will replace.

@@ -1,6 +1,6 @@
 //! Where a path leads to, whatever it is called.
 
-use std::fs::{self, Metadata};
+use std::fs::{self, File, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -39,6 +39,14 @@ pub(super) fn is_same_file(one: &Path, other: &Path) -> bool {
 fn identity(meta: &Metadata) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
     Some((meta.dev(), meta.ino()))
+}
+
+/// Whether `path` still leads to the open file.
+pub(crate) fn is_same_file_as(file: &File, path: &Path) -> bool {
+    match (file.metadata(), fs::metadata(path)) {
+        (Ok(of_file), Ok(of_path)) => identity(&of_file) == identity(&of_path),
+        _ => false,
+    }
 }
 
 #[cfg(not(unix))]

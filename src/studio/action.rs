@@ -19,7 +19,7 @@ pub enum Action {
 
 /// What makes a new variant of the current one.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(tag = "do", rename_all = "lowercase")]
+#[serde(tag = "do", rename_all = "snake_case")]
 pub enum Change {
     /// Adds an effect.
     Add {
@@ -55,6 +55,15 @@ pub enum Change {
         observation: usize,
         /// When it was seen, s; between its neighbours.
         time: f64,
+    },
+    /// States a pose's own noise: how many times as noisy it is as the others.
+    PoseNoise {
+        /// The body's name.
+        body: String,
+        /// Which of its observations, in order of time, from 0.
+        observation: usize,
+        /// Its σ over that of the noise; 1 for as noisy as the others.
+        scale: f64,
     },
     /// States other noise; with neither number the scene's own again.
     Noise {
@@ -130,6 +139,7 @@ struct Fields {
     observation: Option<usize>,
     wrong: Option<bool>,
     time: Option<f64>,
+    scale: Option<f64>,
     position: Option<f64>,
     orientation: Option<f64>,
     variant: Option<usize>,
@@ -137,13 +147,14 @@ struct Fields {
 }
 
 #[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "snake_case")]
 enum Word {
     Add,
     Remove,
     Law,
     Mark,
     Time,
+    PoseNoise,
     Noise,
     Undo,
     Redo,
@@ -174,6 +185,11 @@ impl Fields {
                 observation: observation(self)?,
                 time: taken(&mut self.time, "time")?,
             },
+            Word::PoseNoise => Change::PoseNoise {
+                body: body(self)?,
+                observation: observation(self)?,
+                scale: taken(&mut self.scale, "scale")?,
+            },
             Word::Noise => Change::Noise {
                 position: self.position.take(),
                 orientation: self.orientation.take(),
@@ -198,6 +214,7 @@ impl Fields {
             ("observation", self.observation.is_some()),
             ("wrong", self.wrong.is_some()),
             ("time", self.time.is_some()),
+            ("scale", self.scale.is_some()),
             ("position", self.position.is_some()),
             ("orientation", self.orientation.is_some()),
             ("variant", self.variant.is_some()),

@@ -92,3 +92,35 @@ impl Diagnoses {
         found
     }
 }
+
+/// Advice with the scene's own name in its commands; further scenes stay to be named.
+pub(super) fn named(advice: &str, scene_word: &str) -> String {
+    let mut words: Vec<&str> = advice.split(' ').collect();
+    for index in 0..words.len() {
+        let is_further = index > 0 && words[index - 1] == scene_word;
+        if words[index] == "SCENE" && !is_further {
+            words[index] = scene_word;
+        }
+    }
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advice_names_the_scene_once() {
+        let cases = [
+            (
+                "look: smash a SCENE -o r, then smash b SCENE r",
+                "look: smash a my.json -o r, then smash b my.json r",
+            ),
+            ("together: smash diagnose SCENE SCENE …", "together: smash diagnose my.json SCENE …"),
+            ("film more", "film more"),
+        ];
+        for (advice, told) in cases {
+            assert_eq!(named(advice, "my.json"), told);
+        }
+    }
+}

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::scene::bounds::SAME_TIME_S;
-use crate::scene::values::check_noise;
+use crate::scene::values::{check_noise, check_noise_scale};
 use crate::scene::{BodyFile, DynamicBody, Noise, ObservationFile};
 use crate::words::{counted, did_you_mean, quoted};
 use crate::{Error, ErrorKind, Result, Scene};
@@ -19,6 +19,8 @@ pub struct Edits {
     pub marked: Vec<Pose>,
     /// Poses that were seen at another time than the scene says.
     pub times: Vec<MovedPose>,
+    /// Poses that are as many times as noisy as the others.
+    pub noise_scales: Vec<NoisyPose>,
     /// The noise that is stated instead of the scene's; null where it is as in the scene.
     pub noise: Option<Noise>,
 }
@@ -40,6 +42,16 @@ pub struct MovedPose {
     pub pose: Pose,
     /// s.
     pub time: f64,
+}
+
+/// A pose with a noise of its own.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct NoisyPose {
+    /// The pose.
+    #[serde(flatten)]
+    pub pose: Pose,
+    /// Its σ over that of the noise.
+    pub scale: f64,
 }
 
 impl Edits {
@@ -79,6 +91,18 @@ impl Edits {
         self.check_size()
     }
 
+    /// States how many times as noisy a pose of `scene` is as the others.
+    pub(super) fn scale_noise(&mut self, scene: &Scene, pose: Pose, scale: f64) -> Result<()> {
+        let body = body_of(scene, &pose)?;
+        check_noise_scale("scale", scale)?;
+        self.noise_scales.retain(|other| other.pose != pose);
+        if scale != body.observations[pose.observation].noise_scale {
+            self.noise_scales.push(NoisyPose { pose, scale });
+            self.noise_scales.sort_by(|a, b| a.pose.cmp(&b.pose));
+        }
+        self.check_size()
+    }
+
     /// States other noise; `None` for the scene's own.
     pub(super) fn state_noise(
         &mut self,
@@ -111,9 +135,8 @@ impl Edits {
     }
 
     fn scene(&self, scene: &Scene, without_marked: bool) -> Result<Scene> {
-        if *self == Edits::default()
-            || (!without_marked && self.times.is_empty() && self.noise.is_none())
-        {
+        let unmarked = Edits { marked: Vec::new(), ..self.clone() };
+        if *self == Edits::default() || (!without_marked && unmarked == Edits::default()) {
             return Ok(scene.clone());
         }
         let mut file = scene.to_file();
@@ -122,6 +145,9 @@ impl Edits {
             let Some(observations) = observations else { continue };
             for moved in self.times.iter().filter(|moved| moved.pose.body == *name) {
                 observations[moved.pose.observation].time = Some(moved.time);
+            }
+            for noisy in self.noise_scales.iter().filter(|noisy| noisy.pose.body == *name) {
+                observations[noisy.pose.observation].noise_scale = Some(noisy.scale);
             }
             let is_marked = |at: usize| {
                 self.marked.iter().any(|pose| pose.body == *name && pose.observation == at)
@@ -145,7 +171,7 @@ impl Edits {
     }
 
     fn check_size(&self) -> Result<()> {
-        let count = self.marked.len() + self.times.len();
+        let count = self.marked.len() + self.times.len() + self.noise_scales.len();
         if count <= MOST_EDITS {
             return Ok(());
         }

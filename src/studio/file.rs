@@ -175,6 +175,13 @@ fn add(tree: &mut Tree, scene: &Scene, index: usize, variant: &SessionVariant) -
         return Err(Error::invalid("parent", format!("is {parent}, which comes later"))
             .mend("parents come before their children"));
     }
+    let model = tree.variants[parent].model.clone();
+    if model.lacks_double(scene, change) {
+        tree.check_room()?;
+        let same = tree.push(parent, change.clone(), model);
+        tree.variants[same].numbers = variant.numbers;
+        return Ok(());
+    }
     let grown =
         tree.grow(scene, parent, change.clone()).map_err(|error| within("change", error))?;
     let Some(grown) = grown else {

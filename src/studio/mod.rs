@@ -12,6 +12,7 @@ mod edits;
 mod file;
 mod fits;
 mod law;
+mod lock;
 mod model;
 mod place;
 mod save;
@@ -21,12 +22,12 @@ mod shown;
 mod state;
 mod tree;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 pub use action::{Action, Change, Step};
-pub use edits::{Edits, MovedPose, Pose};
+pub use edits::{Edits, MovedPose, NoisyPose, Pose};
 pub use file::{SESSION_SCHEMA, SessionFile, SessionScene, SessionVariant};
 pub use law::{LawCheck, LawEffect, LawMistake};
 pub use server::Server;
@@ -41,6 +42,7 @@ use session::Session;
 use shown::Shown;
 
 use crate::diagnose::diagnose;
+use crate::effect::EffectRequest;
 use crate::files::{display_name, read_text, sha256, shell_word};
 use crate::reconstruct::RefinedOptions;
 use crate::{Diagnosis, Error, Result, Scene};
@@ -53,6 +55,8 @@ pub struct Studio {
     scene_word: String,
     scene_sha256: String,
     session_file: String,
+    /// Where that is, by its whole path.
+    session_path: PathBuf,
     /// What is seen; held for moments only.
     shown: Mutex<Arc<Shown>>,
     /// Whoever holds this changes what is seen: one after the other.
@@ -104,6 +108,7 @@ impl Studio {
             },
             scene_sha256,
             session_file: save.name().to_string(),
+            session_path: save.path().to_path_buf(),
             shown: Mutex::new(Arc::new(shown)),
             acting: Mutex::new(Acting { fits, save }),
             diagnoses: Diagnoses::new()?,
@@ -162,12 +167,26 @@ impl Studio {
     /// # Errors
     /// The scene can't be diagnosed, or another variant is the current one by now.
     pub fn diagnosis(&self) -> Result<Diagnosis> {
+        self.diagnosis_by(diagnose)
+    }
+
+    /// The same, as `diagnose` finds it.
+    fn diagnosis_by(
+        &self,
+        diagnose: impl FnOnce(&Scene, &RefinedOptions, &[EffectRequest]) -> Result<Diagnosis> + Send,
+    ) -> Result<Diagnosis> {
         let shown = self.shown();
         let variant = shown.session.tree.current;
         let further: Vec<_> = shown.session.laws().into_iter().map(shown::request).collect();
         let effects = shown.session.requests(&self.scene);
         let options = RefinedOptions { effects, ..RefinedOptions::default() };
-        let diagnosed = || diagnose(&shown.fit.scene, &options, &further);
+        let diagnosed = || {
+            let mut found = diagnose(&shown.fit.scene, &options, &further)?;
+            for line in &mut found.advice {
+                *line = diagnoses::named(line, &self.scene_word);
+            }
+            Ok(found)
+        };
         let is_stale = || self.shown().session.tree.current != variant;
         self.diagnoses.found(subject(&shown.session), diagnosed, is_stale)
     }

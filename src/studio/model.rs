@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::action::Change;
 use super::edits::{Edits, Pose};
 use super::law::own_effect;
-use crate::effect::{Effect, EffectRequest, catalogue};
+use crate::effect::{Effect, EffectRequest, catalogue, name_of};
 use crate::reconstruct::refined::{Instance, instances};
 use crate::words::{did_you_mean, listed, quoted, rounded};
 use crate::{Error, ErrorKind, Result, Scene};
@@ -41,6 +41,9 @@ impl Model {
             Change::Time { body, observation, time } => {
                 model.edits.move_to(scene, pose(body, observation), *time)?;
             }
+            Change::PoseNoise { body, observation, scale } => {
+                model.edits.scale_noise(scene, pose(body, observation), *scale)?;
+            }
             Change::Noise { position, orientation } => {
                 model.edits.state_noise(*position, *orientation)?;
             }
@@ -51,6 +54,15 @@ impl Model {
                 .mend(format!("take one out: {MOST_EFFECTS} are more than any scene can tell")));
         }
         Ok(model)
+    }
+
+    /// Whether `change` takes out a law's double that isn't there: earlier versions left one where a law
+    /// of another scope took its place.
+    pub(super) fn lacks_double(&self, scene: &Scene, change: &Change) -> bool {
+        let Change::Remove { effect } = change else { return false };
+        let name = name_of(effect);
+        let is_own = !catalogue().iter().any(|known| known.name == name);
+        is_own && self.own(name).is_some() && !self.has(scene, effect)
     }
 
     /// What `changed` did, in a few words.
@@ -71,8 +83,12 @@ impl Model {
             Change::Time { body, observation, time } => {
                 format!("pose {observation} of {body} at {} s", rounded(*time))
             }
+            Change::PoseNoise { body, observation, scale } => {
+                format!("noise of pose {observation} of {body} × {}", rounded(*scale))
+            }
             Change::Noise { position: Some(position), orientation: Some(orientation) } => {
-                format!("noise {} mm, {} rad", rounded(1e3 * position), rounded(*orientation))
+                let [position, turn] = [1e3 * position, orientation.to_degrees()].map(three_digits);
+                format!("noise {position} mm, {turn}°")
             }
             Change::Noise { .. } => "noise as in the scene".to_string(),
         }
@@ -186,6 +202,12 @@ impl Model {
         self.effects.extend(left.into_iter().map(Arc::new));
         Ok(())
     }
+}
+
+/// As exact as anybody knows a noise.
+fn three_digits(value: f64) -> String {
+    let rounded = format!("{value:.2e}").parse().unwrap_or(value);
+    rounded.to_string()
 }
 
 /// Errors of effects name their parts; what was asked for is the field `effect`.

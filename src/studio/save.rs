@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::LARGEST_SESSION_BYTES;
+use super::lock::Lock;
 use crate::files::{Output, read_text_up_to, sha256};
 use crate::{Error, ErrorKind, Result};
 
@@ -13,13 +14,15 @@ pub(super) struct Save {
     name: String,
     /// SHA-256 of the file as it was seen last; `None` where it wasn't there.
     known: Option<String>,
+    /// Only this studio writes it.
+    _lock: Lock,
 }
 
 impl Save {
     /// The file at `session`, or beside the scene.
     ///
     /// # Errors
-    /// It couldn't be written, or a scene from standard input has none beside it.
+    /// It couldn't be written, another studio has it, or a scene from standard input has none beside it.
     pub(super) fn open(scene: &Path, session: Option<&Path>) -> Result<Save> {
         let path = match session {
             Some(path) if path == Path::new("-") => {
@@ -31,7 +34,13 @@ impl Save {
             None => beside(scene)?,
         };
         let output = Output::check(&path, &[scene])?;
-        Ok(Save { output, name: path.display().to_string(), known: None })
+        let lock = Lock::take(&output)?;
+        Ok(Save { output, name: path.display().to_string(), known: None, _lock: lock })
+    }
+
+    /// The file's whole path.
+    pub(super) fn path(&self) -> &Path {
+        self.output.target()
     }
 
     /// How the file is called.

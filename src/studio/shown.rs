@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::edits::Edits;
 use super::fits::{Fit, Fits};
+use super::law::labels;
 use super::session::{OwnLaw, Session};
 use super::state::{CatalogueEffect, LawView, STUDIO_SCHEMA, StudioState, VariantView};
 use super::tree::Variant;
@@ -84,6 +85,7 @@ impl Shown {
                     looks_like: effect.help.looks_like.clone(),
                     tell_apart: effect.help.tell_apart.clone(),
                     labels: self.labels(scene, &effect.name),
+                    reason: labels(scene, effect).err().map(|error| error.problem().to_string()),
                 })
                 .collect(),
             laws: self

@@ -73,6 +73,8 @@ pub struct CatalogueEffect {
     pub tell_apart: String,
     /// What can be added to the current variant, such as `quadratic_drag@a`.
     pub labels: Vec<String>,
+    /// Why the scene can't show it; null where it can.
+    pub reason: Option<String>,
 }
 
 /// A law of the user's own.

@@ -100,26 +100,36 @@ impl Tree {
         parent: usize,
         change: Change,
     ) -> Result<Option<usize>> {
+        self.check_room()?;
+        let old = &self.variants[parent].model;
+        let model = old.changed(scene, &change)?;
+        if model == **old {
+            return Ok(None);
+        }
+        Ok(Some(self.push(parent, change, Arc::new(model))))
+    }
+
+    /// Adds a variant of `parent`, and returns its number.
+    pub(super) fn push(&mut self, parent: usize, change: Change, model: Arc<Model>) -> usize {
+        self.variants.push(Variant {
+            parent: Some(parent),
+            change: Some(change),
+            redo: None,
+            model,
+            numbers: Numbers::default(),
+        });
+        self.variants.len() - 1
+    }
+
+    /// Refuses one more than a session holds.
+    pub(super) fn check_room(&self) -> Result<()> {
         if self.variants.len() >= MOST_VARIANTS {
             let problem =
                 format!("the session holds {} already", counted(MOST_VARIANTS, "variant"));
             return Err(Error::new(ErrorKind::Invalid, problem)
                 .mend("keep this session, and start a new one: --session FILE"));
         }
-        let old = &self.variants[parent].model;
-        let model = old.changed(scene, &change)?;
-        if model == **old {
-            return Ok(None);
-        }
-        let (model, numbers) = (Arc::new(model), Numbers::default());
-        self.variants.push(Variant {
-            parent: Some(parent),
-            change: Some(change),
-            redo: None,
-            model,
-            numbers,
-        });
-        Ok(Some(self.variants.len() - 1))
+        Ok(())
     }
 
     /// Takes a step.

@@ -48,7 +48,11 @@ pub(super) async fn gate(State(gate): State<Gate>, request: Request, next: Next)
 impl Gate {
     fn refusal(&self, request: &Request) -> Option<Response> {
         if !self.is_for_this_host(request) {
-            return Some(StatusCode::MISDIRECTED_REQUEST.into_response());
+            return Some(refused(
+                StatusCode::MISDIRECTED_REQUEST,
+                "the request is for another host",
+                "open the address that smash printed, as it stands there",
+            ));
         }
         let path = request.uri().path();
         let guess = path.strip_prefix('/').and_then(|rest| rest.split('/').next());
@@ -62,11 +66,11 @@ impl Gate {
                 "use the studio's own page",
             ));
         }
-        let needs_header = !matches!(*request.method(), Method::GET | Method::HEAD);
-        if needs_header && !request.headers().contains_key("x-smash") {
+        let has_header = request.headers().get("x-smash").is_some_and(|value| value == "1");
+        if *request.method() == Method::POST && !has_header {
             return Some(refused(
                 StatusCode::FORBIDDEN,
-                "the header `X-Smash` is missing",
+                "the header `X-Smash: 1` is missing",
                 "send `X-Smash: 1`",
             ));
         }
@@ -95,7 +99,27 @@ impl Gate {
         headers.get_all(ORIGIN).iter().all(is_own)
     }
 
+    /// As browsers write them: without the port where it is HTTP's own.
     fn names(&self) -> [String; 2] {
-        ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port))
+        ["127.0.0.1", "localhost"].map(|name| match self.port {
+            80 => name.to_string(),
+            port => format!("{name}:{port}"),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Browsers leave HTTP's own port out.
+    #[test]
+    fn port_80_has_no_number() {
+        let gate = |port| Gate { port, token: Token::new().unwrap() };
+        assert!(gate(80).is_own_name(b"127.0.0.1") && gate(80).is_own_name(b"localhost"));
+        assert!(!gate(81).is_own_name(b"127.0.0.1") && gate(81).is_own_name(b"127.0.0.1:81"));
+        let from = |origin| HeaderMap::from_iter([(ORIGIN, HeaderValue::from_static(origin))]);
+        assert!(gate(80).is_own_origin(&from("http://127.0.0.1")));
+        assert!(!gate(81).is_own_origin(&from("http://127.0.0.1")));
     }
 }

@@ -8,6 +8,8 @@
 mod body;
 mod connections;
 mod gate;
+mod guests;
+mod port;
 mod reply;
 mod routes;
 mod token;
@@ -31,16 +33,21 @@ pub struct Server {
 }
 
 impl Server {
-    /// Takes the port, or with 0 a free one, at 127.0.0.1.
+    /// Takes the port at 127.0.0.1; with 0 that of `studio`'s session, or, where it is taken, a free one.
     ///
     /// # Errors
     /// The port is taken, or the system has no randomness.
-    pub fn bind(port: u16) -> Result<Server> {
+    pub fn bind(port: u16, studio: &Studio) -> Result<Server> {
         let unusable = |error: std::io::Error| {
             Error::new(ErrorKind::Write, format!("port {port} can't be used: {}", plain(&error)))
                 .mend("leave `--port` out for a free one, or name another")
         };
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(unusable)?;
+        let listen = |port: u16| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+        let listener = match port {
+            0 => listen(port::usual(&studio.session_path)).or_else(|_| listen(0)),
+            port => listen(port),
+        };
+        let listener = listener.map_err(unusable)?;
         listener.set_nonblocking(true).map_err(unusable)?;
         let address = listener.local_addr().map_err(unusable)?;
         Ok(Server { listener, address, token: Token::new()? })

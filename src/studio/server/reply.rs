@@ -33,7 +33,9 @@ pub(super) fn download(content_type: &'static str, name: &str, text: String) -> 
 
 /// An error of the library.
 pub(super) fn error(status: StatusCode, error: &Error) -> Response {
-    let told = json!({"place": error.place(), "problem": error.problem(), "mend": error.hint()});
+    // Without a place in it, the file itself is the place: which one can't be written, say.
+    let place = error.place().or(error.file());
+    let told = json!({"place": place, "problem": error.problem(), "mend": error.hint()});
     let mut response = json_of(&json!({"error": told}));
     *response.status_mut() = status;
     response

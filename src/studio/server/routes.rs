@@ -5,14 +5,14 @@ use std::sync::Arc;
 use axum::body::Body;
 use axum::extract::State;
 use axum::http::StatusCode;
-use axum::response::Response;
+use axum::response::{Redirect, Response};
 use axum::routing::{get, post};
 use axum::{Router, middleware};
 use serde::Deserialize;
 
 use super::body::text;
 use super::gate::{Gate, gate};
-use super::reply::{download, error, json_of, own_fault, page};
+use super::reply::{download, error, json_of, own_fault, page, refused};
 use super::token::Token;
 use crate::Result;
 use crate::json::decode_part;
@@ -26,7 +26,8 @@ type Shared = State<Arc<Studio>>;
 
 /// The studio's routes, all behind the gate and under the token.
 pub(super) fn router(studio: Arc<Studio>, port: u16, token: Token) -> Router {
-    // Only `/TOKEN/` is the page, not `/TOKEN`: what it asks for is relative to it.
+    // What the page asks for is relative to `/TOKEN/`.
+    let page = format!("/{}/", token.text());
     let at = |path: &str| format!("/{}/{path}", token.text());
     Router::new()
         .route(&at(""), get(whole_page))
@@ -36,6 +37,12 @@ pub(super) fn router(studio: Arc<Studio>, port: u16, token: Token) -> Router {
         .route(&at("api/diagnosis"), get(diagnosis))
         .route(&at("api/report"), get(report))
         .route(&at("api/session"), get(session).post(open_session))
+        .route(page.trim_end_matches('/'), get(Redirect::permanent(&page)))
+        .method_not_allowed_fallback(async || {
+            let problem = "this can't be asked for in this way";
+            let mend = "use GET, or POST for acts, laws and sessions";
+            refused(StatusCode::METHOD_NOT_ALLOWED, problem, mend)
+        })
         .with_state(studio)
         .layer(middleware::from_fn_with_state(Gate { port, token: token.clone() }, gate))
 }
@@ -128,4 +135,55 @@ fn file_name(studio: &Studio, kind: &str) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let stem = name.strip_suffix(".session.json").or(name.strip_suffix(".json"));
     format!("{}.{kind}", stem.unwrap_or(&name))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::sync::mpsc;
+    use std::time::Duration;
+
+    use axum::http::StatusCode;
+
+    use super::*;
+    use crate::{Error, ErrorKind};
+
+    /// An act is answered while a diagnosis is still on its way; that of the variant which was left is
+    /// refused.
+    #[test]
+    fn no_act_waits_for_a_diagnosis() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/thrown_ball_drag.json");
+        let session = folder.path().join("session.json");
+        let studio = Arc::new(Studio::open(Path::new(scene), Some(&session)).unwrap());
+        let (begin, begun) = mpsc::channel();
+        let (release, released) = mpsc::channel();
+        let held = move |studio: &Studio| {
+            studio.diagnosis_by(move |_, _, _| {
+                begin.send(()).unwrap();
+                // It ends by itself only if the act waits for it.
+                let is_done = released.recv_timeout(Duration::from_secs(120)).is_ok();
+                assert!(is_done, "the act waits");
+                Err(Error::new(ErrorKind::Solve, "held"))
+            })
+        };
+        let runtime = tokio::runtime::Runtime::new().unwrap();
+        let (acted, diagnosed) = runtime.block_on(async {
+            let diagnosed = answered(State(studio.clone()), held, |found| json_of(&found));
+            let diagnosed = tokio::spawn(diagnosed);
+            tokio::task::spawn_blocking(move || begun.recv().unwrap()).await.unwrap();
+            let add = Action::parse(r#"{"do": "add", "effect": "quadratic_drag@ball"}"#).unwrap();
+            let act = move |studio: &Studio| studio.act(add);
+            let acted = answered(State(studio), act, |state| json_of(&state)).await;
+            release.send(()).unwrap();
+            let diagnosed = diagnosed.await.unwrap();
+            (
+                acted.status(),
+                (diagnosed.status(), text(diagnosed.into_body(), 1 << 10).await.unwrap()),
+            )
+        });
+        assert_eq!(acted, StatusCode::OK);
+        assert_eq!(diagnosed.0, StatusCode::CONFLICT);
+        assert!(diagnosed.1.contains("another variant is seen by now"), "{}", diagnosed.1);
+    }
 }

@@ -162,6 +162,35 @@ fn a_pose_moves_in_time_and_noise_is_stated() {
     assert_eq!(current(&own, "chi2"), current(&before, "chi2"));
 }
 
+/// Of a pose that is as good as not there, nothing is left in the fit; its bar is in the plots.
+#[test]
+fn a_pose_has_a_noise_of_its_own() {
+    let studio = Running::of(BALL);
+    let before = studio.add(DRAG);
+    let pose = json!({"do": "pose_noise", "body": "ball", "observation": 7, "scale": 1000});
+    let noisy = studio.act(pose.clone());
+    assert_eq!(current(&noisy, "did"), "noise of pose 7 of ball × 1000");
+    assert_eq!(
+        noisy["edits"]["noise_scales"],
+        json!([{"body": "ball", "observation": 7, "scale": 1000.0}])
+    );
+    let point = |state: &Value, at: usize| {
+        state["report"]["models"][0]["series"][0]["points"][at]["noise_scale"].clone()
+    };
+    assert_eq!((point(&noisy, 7), point(&noisy, 8)), (json!(1000.0), Value::Null));
+    let restitution = |state: &Value| current(state, "restitution").as_f64().unwrap();
+    let marked = json!({"do": "mark", "body": "ball", "observation": 7, "wrong": true});
+    let left_out = studio.act(marked);
+    let moved = (restitution(&noisy) - restitution(&before)).abs();
+    assert!((restitution(&noisy) - restitution(&left_out)).abs() < 1e-3 * moved);
+    studio.act(json!({"do": "undo"}));
+    assert_eq!(studio.act(pose)["current"], noisy["current"], "said again it makes no variant");
+    let again = studio.again();
+    assert_eq!(again.state()["edits"], noisy["edits"]);
+    let back = again.act(json!({"do": "pose_noise", "body": "ball", "observation": 7, "scale": 1}));
+    assert_eq!((rmse(&back), &back["edits"]), (rmse(&before), &before["edits"]));
+}
+
 /// Each is refused with a place or a mend, and changes nothing.
 #[test]
 fn what_cannot_be_done_is_said_with_its_mend() {
@@ -182,6 +211,11 @@ fn what_cannot_be_done_is_said_with_its_mend() {
             "did you mean `ball`?",
         ),
         (json!({"do": "mark", "body": "ball", "observation": 99, "wrong": true}), "has 0 to 32"),
+        (
+            json!({"do": "pose_noise", "body": "ball", "observation": 1, "scale": 0}),
+            "how many times as noisy",
+        ),
+        (json!({"do": "pose_noise", "body": "ball", "observation": 1}), "add `scale`"),
         (json!({"do": "noise", "position": 0.001}), "give both"),
         (json!({"do": "noise", "position": 0, "orientation": 1}), "above 0"),
         (json!({"do": "go", "variant": 17}), "there are 0 to 1"),

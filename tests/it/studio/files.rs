@@ -25,6 +25,7 @@ fn state_and_session_fit_their_schemas() {
     studio.add("quadratic_drag@a");
     studio.act(json!({"do": "mark", "body": "b", "observation": 2, "wrong": true}));
     studio.act(json!({"do": "noise", "position": 0.003, "orientation": 0.01}));
+    studio.act(json!({"do": "pose_noise", "body": "a", "observation": 1, "scale": 3}));
     studio.act(json!({"do": "compare", "variant": 1, "shown": true}));
     assert_fits(SchemaKind::Studio, &studio.state());
     assert_fits(SchemaKind::Session, &studio.get("api/session").json());

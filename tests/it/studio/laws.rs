@@ -126,3 +126,29 @@ fn a_law_of_another_scope_takes_the_place_of_the_old_one() {
     let state = studio.act(json!({"do": "law", "text": of_scene, "effect": "my_drag"}));
     assert_eq!(state["variants"][3]["effects"], json!(["my_drag"]));
 }
+
+/// Earlier versions left the old one in the model, too, and let it be taken out: it is gone already.
+#[test]
+fn a_session_that_takes_a_double_out_opens() {
+    let studio = Running::of("thrown_ball_drag.json");
+    let of_scene = MY_DRAG.replacen("title", "scope = \"scene\"\ntitle", 1);
+    studio.act(json!({"do": "law", "text": of_scene, "effect": "my_drag"}));
+    studio.act(json!({"do": "law", "text": MY_DRAG, "effect": "my_drag@ball"}));
+    let state = studio.add("gravity_scale");
+    let mut saved: Value = serde_json::from_str(&studio.get("api/session").body).unwrap();
+    let variants = saved["variants"].as_array_mut().unwrap();
+    let mut removed = variants[3].clone();
+    removed["change"] = json!({"do": "remove", "effect": "my_drag"});
+    variants.insert(3, removed);
+    (variants[2]["redo"], variants[3]["redo"]) = (json!(3), json!(4));
+    (variants[3]["parent"], variants[4]["parent"]) = (json!(2), json!(3));
+    saved["current"] = json!(4);
+    let other = Running::of("thrown_ball_drag.json");
+    let opened = other.post("api/session", &saved.to_string()).json();
+    assert_eq!(opened["variants"][3]["did"], "− my_drag");
+    assert_eq!(opened["variants"][3]["effects"], json!(["my_drag@ball"]));
+    assert_eq!(opened["report"]["models"][0]["result"], state["report"]["models"][0]["result"]);
+    // What was never there can't be taken out.
+    saved["variants"][3]["change"]["effect"] = json!("your_drag");
+    assert_eq!(other.post("api/session", &saved.to_string()).status, 409);
+}

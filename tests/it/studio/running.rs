@@ -72,6 +72,13 @@ impl Running {
         String::from_utf8(output.stderr).unwrap()
     }
 
+    /// What a second one on the same session prints; it fails.
+    pub fn second(&self) -> String {
+        let output = command(&self.folder, &self.scene).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+        String::from_utf8(output.stderr).unwrap()
+    }
+
     pub fn pid(&self) -> u32 {
         self.child.id()
     }

@@ -64,7 +64,7 @@ fn each_act_is_in_the_file_when_it_is_answered() {
     let disposition = download.header("content-disposition").unwrap();
     assert_eq!(disposition, "attachment; filename=\"thrown_ball_drag.session.json\"");
     let left: Vec<_> = fs::read_dir(studio.folder.path()).unwrap().collect();
-    assert_eq!(left.len(), 2, "a scene and a session: {left:?}");
+    assert_eq!(left.len(), 3, "a scene, a session, and its lock: {left:?}");
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn another_scene_s_session_is_refused() {
     assert!(told.contains("--session FILE"), "{told}");
 }
 
-/// Two studios on one file: the second one's act doesn't overwrite the first one's.
+/// What an editor or a copy put there is somebody's work, too.
 #[test]
 fn what_another_program_saved_is_not_overwritten() {
     let studio = Running::of(BALL);
@@ -132,6 +132,7 @@ fn what_another_program_saved_is_not_overwritten() {
     fs::write(studio.session_path(), &others).unwrap();
     let error = studio.refused(json!({"do": "undo"}));
     assert!(error["problem"].as_str().unwrap().contains("another program"), "{error}");
+    assert_eq!(error["place"], "thrown_ball_drag.session.json");
     assert_eq!(fs::read_to_string(studio.session_path()).unwrap(), others);
     // One that was taken away is made again.
     fs::remove_file(studio.session_path()).unwrap();
@@ -146,7 +147,45 @@ fn an_act_that_cannot_be_saved_changes_nothing() {
     fs::remove_file(studio.session_path()).unwrap();
     fs::create_dir(studio.session_path()).unwrap();
     let error = studio.refused(json!({"do": "undo"}));
+    assert_eq!(error["place"], "thrown_ball_drag.session.json");
     assert!(error["mend"].is_string(), "{error}");
+}
+
+/// The folder is gone: which file can't be saved, and what to do.
+#[test]
+fn a_folder_that_is_gone_is_told() {
+    let studio = Running::of(BALL);
+    let moved = studio.folder.path().with_extension("moved");
+    fs::rename(studio.folder.path(), &moved).unwrap();
+    let error = studio.refused(json!({"do": "add", "effect": "quadratic_drag@ball"}));
+    fs::rename(&moved, studio.folder.path()).unwrap();
+    assert_eq!(error["place"], "thrown_ball_drag.session.json");
+    assert!(error["mend"].as_str().unwrap().contains("make the folder"), "{error}");
+    // It is there again: all goes on.
+    studio.add("quadratic_drag@ball");
+}
+
+/// The second one says so before anything is tried in it; a killed one locks nobody out.
+#[test]
+fn a_session_is_open_in_one_studio() {
+    let studio = Running::of(BALL);
+    let told = Running::second(&studio);
+    assert!(told.contains("thrown_ball_drag.session.json: is open in another studio"), "{told}");
+    assert!(told.contains("--session FILE"), "{told}");
+    studio.add("quadratic_drag@ball");
+    assert_eq!(studio.again().state()["current"], 1);
+}
+
+/// A browser keeps things by address and port: what was typed while the studio was away is there again.
+#[test]
+fn a_session_has_its_own_port() {
+    // Another studio may have it by chance; not thrice.
+    let is_kept = |_| {
+        let studio = Running::of(BALL);
+        let port = studio.port;
+        studio.again().port == port
+    };
+    assert!((0..3).any(is_kept));
 }
 
 /// Ctrl-C ends it at once, with nothing left undone.
@@ -157,6 +196,8 @@ fn an_interrupt_ends_it_cleanly() {
     let pid = studio.pid().to_string();
     assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
     assert_eq!(studio.ended(), Some(0));
+    let left: Vec<_> = fs::read_dir(studio.folder.path()).unwrap().collect();
+    assert_eq!(left.len(), 2, "a scene and a session: {left:?}");
 }
 
 /// Two variants of the session are one where it is opened.

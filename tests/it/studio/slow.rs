@@ -97,8 +97,32 @@ fn huge_bodies_are_refused() {
     assert_eq!(studio.post("api/law", &draft).json()["effect"], json!(null));
 }
 
-/// Half a head, half a body, and more connections than are served at once: after the server's patience
-/// of ten seconds all others are answered.
+/// More connections than are served at once, none of which asks anything: the first have to leave, and
+/// all others are answered while the server still has patience with the rest.
+#[test]
+fn whoever_asks_nothing_keeps_nobody_out() {
+    let studio = Running::of(SCENE);
+    let host = format!("Host: 127.0.0.1:{}\r\n", studio.port);
+    let head = format!("GET {}api/state HTTP/1.1\r\nConnection: close\r\n", studio.base);
+    let act = format!("POST {}api/act HTTP/1.1\r\n{host}X-Smash: 1\r\n", studio.base);
+    let begin = |index: usize| {
+        let mut stream = studio.connected();
+        let half_body = format!("{act}Content-Length: 40\r\n\r\n{{\"do\"");
+        let begun = if index.is_multiple_of(2) { &head } else { &half_body };
+        stream.write_all(begun.as_bytes()).unwrap();
+        stream
+    };
+    let mut guests: Vec<_> = (0..300).map(begin).collect();
+    assert_eq!(studio.state()["current"], 0);
+    // Half a request is still no reason to leave, but for the first.
+    let patient = &mut guests[200];
+    patient.write_all(format!("{host}\r\n").as_bytes()).unwrap();
+    let mut answer = String::new();
+    patient.read_to_string(&mut answer).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+}
+
+/// Half a head, half a body: after ten seconds the server has no more patience.
 #[test]
 fn whoever_dawdles_is_sent_away() {
     let studio = Running::of(SCENE);
@@ -112,9 +136,7 @@ fn whoever_dawdles_is_sent_away() {
         studio.base, studio.port
     );
     half_body.write_all(head.as_bytes()).unwrap();
-    let idle: Vec<_> = (0..300).map(|_| studio.connected()).collect();
     assert_eq!(studio.state()["current"], 0);
-    drop(idle);
     let mut answers = [String::new(), String::new()];
     let _ = half_head.read_to_string(&mut answers[0]);
     let _ = half_body.read_to_string(&mut answers[1]);

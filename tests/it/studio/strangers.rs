@@ -22,7 +22,7 @@ const CASES: [(Edit, &str, &str); 27] = [
     (|s| s["schema"] = json!("smash.scene/1"), "schema", "smash.session/1"),
     (|s| s["extra"] = json!(1), "extra", "known here"),
     (|s| s["drafts"] = json!(""), "drafts", "did you mean `draft`?"),
-    (|s| drop(s.as_object_mut().unwrap().remove("variants")), "", "add `variants`"),
+    (|s| drop(s.as_object_mut().unwrap().remove("variants")), "the session", "add `variants`"),
     (|s| s["variants"] = json!([]), "variants", "the base model"),
     (|s| s["variants"] = json!({}), "variants", "a list"),
     (|s| s["current"] = json!(9), "current", "there are 0 to 2"),
@@ -82,7 +82,7 @@ fn a_broken_session_is_refused_with_its_place() {
         let answer = studio.post("api/session", &broken.to_string());
         assert_eq!(answer.status, 409, "case {index}: {answer:?}");
         let error = answer.value()["error"].clone();
-        assert_eq!(error["place"].as_str().unwrap_or_default(), place, "case {index}: {error}");
+        assert_eq!(error["place"], place, "case {index}: {error}");
         let told = error["mend"].as_str().unwrap_or_default();
         assert!(told.contains(mend), "case {index}: {error}");
     }
