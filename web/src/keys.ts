@@ -13,8 +13,8 @@ const KEYS: [key: string, does: string][] = [
   ['arrows in 3D', 'shift the picture; with Shift turn it'],
   ['x', 'exaggerate the difference more'],
   ...VIEWS.map((view, index): [string, string] => [String(index + 1), VIEW_WORDS[view]]),
-  ['?', 'this list'],
 ];
+const LIST: [key: string, does: string] = ['?', 'this list'];
 
 export class Keys {
   readonly dialog: HTMLDialogElement;
@@ -23,6 +23,7 @@ export class Keys {
   constructor(
     private readonly clock: Clock,
     private readonly stage: () => StageSection | null,
+    further: [key: string, does: string][],
   ) {
     this.dialog = element(
       'dialog',
@@ -31,7 +32,7 @@ export class Keys {
       element(
         'dl',
         { class: 'keys' },
-        ...KEYS.flatMap(([key, does]) => [
+        ...[...KEYS, ...further, LIST].flatMap(([key, does]) => [
           element('dt', {}, element('kbd', {}, key)),
           element('dd', {}, does),
         ]),
@@ -78,7 +79,8 @@ export class Keys {
   }
 }
 
-function isTyping(target: HTMLElement): boolean {
+/** Whether keys write something there. */
+export function isTyping(target: HTMLElement): boolean {
   return (
     target.matches('textarea, select, [contenteditable]') ||
     (target.matches('input') && !target.matches('[type=range], [type=checkbox], [type=radio]'))

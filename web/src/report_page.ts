@@ -24,6 +24,8 @@ export interface Live {
   plotTools: HTMLElement;
   sections: HTMLElement[];
   acts: PoseActs;
+  /** Keys and what they do, beside the page's own. */
+  keys: [key: string, does: string][];
   adder: (effect: string) => HTMLElement;
   missingStatus: HTMLElement;
 }
@@ -54,7 +56,7 @@ export class ReportPage {
     private readonly live: Live | null = null,
   ) {
     this.residuals = new ResidualsSection(this.clock, live?.acts ?? null);
-    const keys = new Keys(this.clock, () => this.stage);
+    const keys = new Keys(this.clock, () => this.stage, live?.keys ?? []);
     root.replaceChildren(
       element(
         'header',
@@ -126,8 +128,9 @@ export class ReportPage {
     this.clock.cover(poses, model?.motion?.collision_time ?? model?.result.collision_time.value ?? null);
     refill(this.summary, ...summary(report, model));
     this.fillChoice(report);
-    this.stage?.show(report.scene, model);
-    this.residuals.show(report.scene, model);
+    this.stage?.show(report.scene, model, this.live?.acts.isMarked ?? null);
+    const others = report.models.filter((other) => other !== model);
+    this.residuals.show(report.scene, model, others);
     this.estimates.fill(model ? estimates(report, model) : []);
     this.ledger.fill(model ? ledger(model) : []);
   }

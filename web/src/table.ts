@@ -28,13 +28,16 @@ export function table(caption: string, columns: Column[], rows: Child[][], test?
       ...kept.slice(1).map((index) => element('td', { class: kind(index) }, row[index])),
     ),
   );
+  // One by one: there may be more rows than a call takes arguments.
+  const content = element('tbody');
+  for (const row of body) content.append(row);
   // Outside of what scrolls, so that one can read all of it.
   const id = freshId('caption');
   const made = element(
     'table',
     { 'data-testid': test, 'aria-labelledby': id },
     element('thead', {}, element('tr', {}, ...head)),
-    element('tbody', {}, ...body),
+    content,
   );
   return element(
     'div',

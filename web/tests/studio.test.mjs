@@ -8,8 +8,9 @@ import { after, before, test } from 'node:test';
 import { ROOT, folder, launch, open, scene, until } from './browser.mjs';
 
 const SMASH = process.env.SMASH ?? join(ROOT, 'target', 'debug', 'smash');
-/** What the browser itself says of a refusal, or of a server that is gone: the page tells both. */
-const KNOWN = /status of 409|ERR_CONNECTION/;
+/** What the browser itself says of a refusal, of an address that is no more, or of a server that is gone: the page
+ *  tells all three. */
+const KNOWN = /status of 40[49]|ERR_CONNECTION/;
 const BASE = /7\.1\d mm/;
 const WITH_DRAG = /0\.98\d* mm/;
 
@@ -61,8 +62,8 @@ async function opened(address) {
 }
 
 /** A studio of its own for one test, which does something and wants no console error. */
-async function tried(act, name = 'thrown_ball_drag') {
-  const file = scene(name);
+async function tried(act, name = 'thrown_ball_drag', change = () => {}) {
+  const file = scene(name, change);
   const studio = await served(file);
   const { page, errors, close } = await opened(studio.address);
   try {
@@ -110,6 +111,8 @@ test('variants stand side by side', () =>
       (html) => html.includes('0: base model'),
       'the base model',
     );
+    // In the same plots, with its dash.
+    await page.locator('.plots-legend', { hasText: 'Lines: 0: base model' }).waitFor();
     await page.getByTestId('compare-0').uncheck();
     await until(
       () => page.getByTestId('compare-0').isChecked(),
@@ -207,7 +210,7 @@ async function firstPlot(page) {
   // As the plot is scaled: all times with 3 % around them, and zero in the middle.
   const times = report.scene.bodies.flatMap((body) => body.observations.map((pose) => pose.time));
   const [start, span] = [Math.min(...times), Math.max(...times) - Math.min(...times)];
-  const half = 1.12 * Math.max(...poses.map((pose) => Math.abs(pose.value)), 2.6 * sigma);
+  const half = 1.25 * Math.max(...poses.map((pose) => Math.abs(pose.value)), 2.6 * sigma);
   return {
     poses,
     sigma,
@@ -281,6 +284,115 @@ test('the band of a plot is dragged to another noise', () =>
     // The band is two σ wide.
     assert.ok(Math.abs(stated - 4 * sigma) <= pixel.mm / 2, `${stated} mm, not ${4 * sigma} mm`);
   }));
+
+test('a pose is dragged to a noise of its own, unless Esc leaves it, and typed back', () =>
+  tried(async (page) => {
+    await page.getByTestId('mode-noise').check();
+    const { poses, sigma, at, pixel } = await firstPlot(page);
+    const [{ time, value }] = poses.slice(3);
+    const drag = async () => {
+      await page.mouse.move(...at(time, value));
+      await page.mouse.down();
+      await page.mouse.move(...at(time, value + 6 * sigma));
+    };
+    await drag();
+    await page.keyboard.press('Escape');
+    await page.mouse.up();
+    await drag();
+    await page.getByText(/noise of pose 3 × .*; Esc leaves it/).waitFor();
+    await page.mouse.up();
+    await changes(page, /poses, 1 of another noise$/);
+    await page.getByTestId('poses-ball').locator('summary').click();
+    const scale = page.getByTestId('scale-ball-3');
+    const dragged = parseFloat(await scale.inputValue());
+    // The bar is two σ long, to two digits.
+    assert.ok(Math.abs(dragged - 3) <= pixel.mm / (2 * sigma) + 0.05, `${dragged}, not 3`);
+    assert.equal(await page.getByTestId('variant-2').count(), 0, 'Esc made no variant');
+    await scale.fill('1');
+    await scale.press('Tab');
+    await changes(page, /poses$/);
+  }));
+
+test('keys undo and redo, but where one types they are the text’s', () =>
+  tried(async (page) => {
+    await page.getByTestId('add-quadratic_drag@ball').click();
+    await shows(page, WITH_DRAG);
+    await page.keyboard.press('Control+z');
+    await shows(page, BASE);
+    await page.keyboard.press('Control+Shift+Z');
+    await shows(page, WITH_DRAG);
+    const text = page.getByTestId('law-text');
+    await text.click();
+    await page.keyboard.type('a');
+    await page.keyboard.press('Control+z');
+    await until(
+      () => text.inputValue(),
+      (typed) => typed === '',
+      'the law',
+    );
+    assert.match(await rmse(page), WITH_DRAG);
+    await page.getByTestId('show-keys').click();
+    assert.match(await page.getByTestId('keys').textContent(), /Ctrl Zundo/);
+  }));
+
+test('the first window shows the collision, and why an effect can’t be added', () =>
+  tried(async (page) => {
+    await page.getByTestId('explanation').waitFor({ timeout: 60_000 });
+    const stage = await page.getByTestId('stage').boundingBox();
+    assert.ok(stage.y + 150 < 900, `the stage starts at ${stage.y}`);
+    const effects = await page.getByTestId('catalogue').locator('li').allTextContents();
+    assert.ok(
+      effects.some((one) => one.startsWith('Magnus') && one.endsWith('this scene has no orientations')),
+      effects.join('\n'),
+    );
+  }));
+
+test('of a long film, poses are listed page by page', () =>
+  tried(
+    async (page) => {
+      await page.getByTestId('poses-ball').locator('summary').click();
+      await page.getByText('Poses 0 to 199 of 321.').waitFor();
+      assert.equal(await page.getByTestId('wrong-ball-250').count(), 0);
+      await page.getByTestId('later-ball').click();
+      await page.getByTestId('wrong-ball-250').check();
+      await changes(page, /1 marked wrong$/);
+      assert.equal(await page.getByTestId('wrong-ball-250').isChecked(), true);
+      assert.equal(await page.getByTestId('later-ball').isDisabled(), true);
+    },
+    'thrown_ball_drag',
+    (data) => {
+      const { observations } = data.bodies[0];
+      const between = (one, next, share) => ({
+        time: one.frame / data.fps + ((next.frame - one.frame) / data.fps) * share,
+        position: one.position.map((x, axis) => x + (next.position[axis] - x) * share),
+      });
+      data.bodies[0].observations = observations.flatMap((one, index) => {
+        const next = observations[index + 1] ?? one;
+        const steps = next === one ? [0] : [...Array(10).keys()].map((step) => step / 10);
+        return steps.map((share) => between(one, next, share));
+      });
+    },
+  ));
+
+test('a law that is typed while the studio is away is there when it is back', async () => {
+  const file = scene('thrown_ball_drag');
+  const studio = await served(file);
+  const { page, close } = await opened(studio.address);
+  await studio.kill();
+  await page.getByTestId('law-text').fill('name = "half');
+  await page.getByTestId('banner').waitFor({ state: 'visible' });
+  const again = await served(file);
+  // Another address, at the same port, in the same browser.
+  await page.goto(again.address);
+  await until(
+    () => page.evaluate(async () => (await (await fetch('api/state')).json()).draft),
+    (draft) => draft === 'name = "half',
+    'the draft at the server',
+  );
+  assert.equal(await page.getByTestId('law-text').inputValue(), 'name = "half');
+  await close();
+  await again.kill();
+});
 
 test('a saved session opens in another studio, and the report needs none', () =>
   tried(async (page, studio, file) => {

@@ -3,6 +3,8 @@
 import type { Segment } from '../report';
 
 export const RADIUS = 3.4;
+/** Dashes of the lines of other models, which are told apart by them. */
+export const DASHES = [[], [7, 3], [2, 3], [9, 3, 2, 3]];
 
 /** Corners of a triangle around (x, y) that looks as large as a circle of `radius`. */
 export function triangle(x: number, y: number, radius: number): [number, number][] {

@@ -2,8 +2,8 @@
 
 import type uPlot from 'uplot';
 import { palette } from '../stage/palette';
-import type { PlotData } from './plot_data';
-import { RADIUS, trace } from './marks';
+import type { PlotData, PlotPoint } from './plot_data';
+import { DASHES, RADIUS, trace } from './marks';
 
 /** Below the grid: the band of ±2 σ. */
 export function paintBand(plot: uPlot, data: PlotData): void {
@@ -33,12 +33,27 @@ export function paintPoints(plot: uPlot, data: PlotData): void {
     stroke(context, x, bbox.top, x, bbox.top + bbox.height);
     context.setLineDash([]);
   }
-  for (const point of data.points) {
+  data.others.forEach(({ points }, index) => {
+    context.strokeStyle = colours.quiet;
+    context.lineWidth = 1.3 * pixel;
+    context.setLineDash(DASHES[index].map((length) => length * pixel));
+    context.beginPath();
+    points.forEach((point, at) => {
+      const [x, y] = [plot.valToPos(point.time, 'x', true), plot.valToPos(point.value, 'y', true)];
+      if (points[at - 1]?.segment === point.segment) context.lineTo(x, y);
+      else context.moveTo(x, y);
+    });
+    context.stroke();
+  });
+  context.setLineDash([]);
+  for (const point of data.drawn) {
     const [x, y] = [plot.valToPos(point.time, 'x', true), plot.valToPos(point.value, 'y', true)];
+    context.strokeStyle = point.segment === 'before' ? colours.before : colours.after;
+    context.lineWidth = 1.2 * pixel;
+    if (data.sigma && point.noiseScale !== 1) bar(plot, context, point, 2 * data.sigma * point.noiseScale);
     context.beginPath();
     trace(context, point.segment, x, y, RADIUS * pixel);
-    context.fillStyle = context.strokeStyle = point.segment === 'before' ? colours.before : colours.after;
-    context.lineWidth = 1.2 * pixel;
+    context.fillStyle = context.strokeStyle;
     if (point.isMarked) strike(context, x, y, 2 * RADIUS * pixel);
     else context.fill();
     if (!point.isOff) continue;
@@ -49,6 +64,15 @@ export function paintPoints(plot: uPlot, data: PlotData): void {
     context.stroke();
   }
   context.restore();
+}
+
+/** The ±2 σ of a point with a noise of its own. */
+function bar(plot: uPlot, context: CanvasRenderingContext2D, point: PlotPoint, reach: number): void {
+  const x = plot.valToPos(point.time, 'x', true);
+  const foot = RADIUS * (window.devicePixelRatio || 1);
+  const [top, bottom] = [1, -1].map((side) => plot.valToPos(point.value + side * reach, 'y', true));
+  stroke(context, x, top, x, bottom);
+  for (const end of [top, bottom]) stroke(context, x - foot, end, x + foot, end);
 }
 
 /** The outline of a point that is left out, crossed. */

@@ -1,5 +1,5 @@
 // The pointer in a plot: it moves the moment; in the studio it marks poses, moves them in time and
-// widens the noise's band, too.
+// widens the noise's band, or a pose's own noise, too.
 
 import type uPlot from 'uplot';
 import type { Clock } from '../clock';
@@ -8,6 +8,10 @@ import type { PlotData, PlotPoint } from './plot_data';
 import type { PoseActs } from './pose_acts';
 
 const REACH_PX = 12;
+/** A pose is taken hold of by its mark alone where the band's edge is at hand, too. */
+const MARK_PX = 5;
+/** What scenes may hold. */
+const NOISE_SCALES = { least: 0.01, most: 1000 };
 
 /** What is dragged, and how it is let go. */
 interface Drag {
@@ -15,8 +19,14 @@ interface Drag {
   drop: () => void;
 }
 
+/** A pose whose own noise is dragged, and what that was. */
+interface Noisy {
+  point: PlotPoint;
+  before: number;
+}
+
 export class Pointer {
-  private dragged: PlotPoint | 'band' | null = null;
+  private dragged: PlotPoint | Noisy | 'band' | null = null;
   private drag: Drag | null = null;
 
   /** `tell` shows what a drag would do, or, with null, what is there. */
@@ -49,7 +59,7 @@ export class Pointer {
   /** What a press here would take hold of. */
   private grip(event: PointerEvent, x: number, y: number): string {
     const mode = this.modeOf(event);
-    if (mode === 'noise') return this.isAtBand(y) ? 'noise' : '';
+    if (mode === 'noise') return this.isAtBand(y) || this.noisyAt(x, y) !== null ? 'noise' : '';
     return mode !== 'look' && this.pointAt(x, y) !== null ? mode : '';
   }
 
@@ -69,8 +79,8 @@ export class Pointer {
       acts.mark(this.data().body, point.observation, !point.isMarked);
     } else if (mode === 'time' && point !== null) {
       this.dragged = point;
-    } else if (mode === 'noise' && this.isAtBand(y)) {
-      this.dragged = 'band';
+    } else if (mode === 'noise') {
+      this.dragged = this.noisyAt(x, y) ?? (this.isAtBand(y) ? 'band' : null);
     }
     if (this.dragged === null) return;
     event.preventDefault();
@@ -79,27 +89,46 @@ export class Pointer {
   }
 
   private pull(x: number, y: number): void {
-    const { plot, dragged, acts } = this;
-    const data = this.data();
-    if (acts === null || dragged === null) return;
+    if (this.acts === null || this.dragged === null) return;
+    this.drag = this.dragTo(x, y, this.dragged, this.acts);
+    this.tell(`${this.drag.words}; Esc leaves it`);
+  }
+
+  private dragTo(x: number, y: number, dragged: PlotPoint | Noisy | 'band', acts: PoseActs): Drag {
+    const { plot } = this;
+    const { body, channel, sigma, unit } = this.data();
     if (dragged === 'band') {
-      const sigma = Math.abs(plot.posToVal(y, 'y')) / 2;
-      const si = data.unit === '°' ? sigma / DEGREES : sigma / 1000;
-      this.drag = {
-        words: `noise, one σ: ${significant(sigma)} ${data.unit}`,
+      const one = Math.abs(plot.posToVal(y, 'y')) / 2;
+      const si = unit === '°' ? one / DEGREES : one / 1000;
+      return {
+        words: `noise, one σ: ${significant(one)} ${unit}`,
         drop: () => {
-          if (sigma > 0) acts.noise(data.channel, si);
+          if (one > 0) acts.noise(channel, si);
         },
       };
-    } else {
-      const time = Number(plot.posToVal(x, 'x').toFixed(5));
-      this.clock.go(time);
-      this.drag = {
-        words: `pose ${dragged.observation} from ${fixed(dragged.time, 4)} s to ${fixed(time, 4)} s`,
-        drop: () => acts.move(data.body, dragged.observation, time),
+    }
+    if ('before' in dragged) {
+      const { point } = dragged;
+      const reach = Math.abs(plot.posToVal(y, 'y') - point.value) / (2 * (sigma ?? 1));
+      const scale = Number(Math.min(Math.max(reach, NOISE_SCALES.least), NOISE_SCALES.most).toPrecision(2));
+      this.stretch(point, scale);
+      return {
+        words: `noise of pose ${point.observation} × ${significant(scale, 2)}`,
+        drop: () => acts.poseNoise(body, point.observation, scale),
       };
     }
-    this.tell(`${this.drag.words}; Esc leaves it`);
+    const time = Number(plot.posToVal(x, 'x').toFixed(5));
+    this.clock.go(time);
+    return {
+      words: `pose ${dragged.observation} from ${fixed(dragged.time, 4)} s to ${fixed(time, 4)} s`,
+      drop: () => acts.move(body, dragged.observation, time),
+    };
+  }
+
+  /** Draws a pose with another noise of its own. */
+  private stretch(point: PlotPoint, scale: number): void {
+    point.noiseScale = scale;
+    this.plot.redraw(false);
   }
 
   private release(): void {
@@ -109,6 +138,9 @@ export class Pointer {
   }
 
   private cancel(): void {
+    const { dragged } = this;
+    if (dragged !== null && dragged !== 'band' && 'before' in dragged)
+      this.stretch(dragged.point, dragged.before);
     this.dragged = null;
     this.drag = null;
     this.tell(null);
@@ -119,10 +151,17 @@ export class Pointer {
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   }
 
-  private pointAt(x: number, y: number): PlotPoint | null {
+  /** The pose whose own noise a drag would change. */
+  private noisyAt(x: number, y: number): Noisy | null {
+    const point = this.pointAt(x, y, this.isAtBand(y) ? MARK_PX : REACH_PX);
+    if (point === null || this.data().sigma === null) return null;
+    return { point, before: point.noiseScale };
+  }
+
+  private pointAt(x: number, y: number, reach = REACH_PX): PlotPoint | null {
     const { plot } = this;
-    let [best, least]: [PlotPoint | null, number] = [null, REACH_PX];
-    for (const point of this.data().points) {
+    let [best, least]: [PlotPoint | null, number] = [null, reach];
+    for (const point of this.data().drawn) {
       const away = Math.hypot(plot.valToPos(point.time, 'x') - x, plot.valToPos(point.value, 'y') - y);
       if (away < least) [best, least] = [point, away];
     }

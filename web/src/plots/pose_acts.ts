@@ -6,9 +6,11 @@ export type Mode = (typeof MODES)[number];
 export interface PoseActs {
   /** What a click or a drag in a plot does. */
   mode: Mode;
-  isMarked: (body: string, observation: number) => boolean;
+  readonly isMarked: (body: string, observation: number) => boolean;
   mark: (body: string, observation: number, wrong: boolean) => void;
   move: (body: string, observation: number, time: number) => void;
+  /** Its own σ over that of the others. */
+  poseNoise: (body: string, observation: number, scale: number) => void;
   /** One σ in m or rad. */
   noise: (channel: 'position' | 'orientation', sigma: number) => void;
 }

@@ -2,8 +2,8 @@
 
 import { short, significant } from '../numbers';
 import { svg } from '../svg';
-import { RADIUS, triangle } from './marks';
-import type { PlotData, PlotPoint } from './plot_data';
+import { DASHES, RADIUS, triangle } from './marks';
+import type { OtherModel, PlotData, PlotPoint } from './plot_data';
 
 interface Frame {
   width: number;
@@ -58,16 +58,58 @@ function drawn(data: PlotData, frame: Frame, explanation: SVGElement[]): SVGSVGE
       words(`${short(time)} s`, { x: x(time), y: frame.bottom + 16, 'text-anchor': 'middle' }),
     ),
     data.impact === null ? null : impactLine(x(data.impact), frame),
-    marks(data.points, x, y),
+    ...data.others.map((other, index) => otherLine(other, index, x, y)),
+    marks(data, x, y),
     ...explanation,
   );
 }
 
 /** One by one: of a long film there are more than a call takes arguments. */
-function marks(points: PlotPoint[], x: (time: number) => number, y: (value: number) => number): SVGElement {
+function marks(data: PlotData, x: (time: number) => number, y: (value: number) => number): SVGElement {
   const made = svg('g');
-  for (const point of points) made.append(mark(point, x(point.time), y(point.value)));
+  for (const point of data.drawn) {
+    if (data.sigma && point.noiseScale !== 1)
+      made.append(bar(point, 2 * data.sigma * point.noiseScale, x, y));
+    made.append(mark(point, x(point.time), y(point.value)));
+  }
   return made;
+}
+
+function otherLine(
+  { points, name }: OtherModel,
+  index: number,
+  x: (time: number) => number,
+  y: (value: number) => number,
+): SVGElement {
+  const step = (at: number): string => (points[at - 1]?.segment === points[at].segment ? 'L' : 'M');
+  return svg(
+    'path',
+    {
+      d: points
+        .map((point, at) => `${step(at)}${x(point.time).toFixed(2)} ${y(point.value).toFixed(2)}`)
+        .join(''),
+      fill: 'none',
+      stroke: COLOURS.faint,
+      'stroke-dasharray': DASHES[index].join(' ') || null,
+    },
+    svg('title', {}, name),
+  );
+}
+
+/** The ±2 σ of a point with a noise of its own. */
+function bar(
+  point: PlotPoint,
+  reach: number,
+  x: (time: number) => number,
+  y: (value: number) => number,
+): SVGElement {
+  const [at, top, bottom] = [x(point.time), y(point.value + reach), y(point.value - reach)];
+  const foot = (end: number): string => `M${at - RADIUS} ${end}H${at + RADIUS}`;
+  return svg('path', {
+    d: `M${at} ${top}V${bottom}${foot(top)}${foot(bottom)}`,
+    fill: 'none',
+    stroke: COLOURS[point.segment],
+  });
 }
 
 function words(text: string, at: Record<string, string | number>): SVGElement {
@@ -163,7 +205,7 @@ function legend(data: PlotData, frame: Frame): SVGElement[] {
   const y = frame.height - 14;
   const at = (x: number, words: string): SVGElement =>
     svg('text', { x, y: y + 4, 'font-size': 12, fill: COLOURS.ink }, words);
-  const point = { observation: 0, time: 0, value: 0, isOff: false, isMarked: false };
+  const point = { observation: 0, time: 0, value: 0, noiseScale: 1, isOff: false, isMarked: false };
   return [
     mark({ ...point, segment: 'before' }, frame.left + 4, y),
     at(frame.left + 14, 'before the impact'),

@@ -85,23 +85,29 @@ function findings(model: Model): Child[] {
 function keyNumbers(model: Model): HTMLElement {
   const { result } = model;
   const numbers: [string, string][] = [];
+  /** What the studio's bar shows already. */
+  const inBar: [string, string][] = [];
   if (result.mass_ratio) numbers.push(['mass ratio', estimate(result.mass_ratio, '')]);
   numbers.push(['restitution', estimate(result.restitution, '')]);
   numbers.push(['collision time', estimate(result.collision_time, 's')]);
   const turn = result.fit.orientation_rmse;
-  numbers.push([
+  inBar.push([
     'error of the fit',
     length(result.fit.position_rmse) + (typeof turn === 'number' ? `, ${angle(turn)}` : ''),
   ]);
   if (typeof result.fit.reduced_chi2 === 'number') {
-    numbers.push(['χ² per degree of freedom', significant(result.fit.reduced_chi2)]);
+    inBar.push(['χ² per degree of freedom', significant(result.fit.reduced_chi2)]);
   }
   const effects = result.effects.map(label).join(', ');
-  numbers.push(['model', effects === '' ? 'base' : `base + ${effects}`]);
+  inBar.push(['model', effects === '' ? 'base' : `base + ${effects}`]);
   return element(
     'dl',
     { class: 'key-numbers', 'data-testid': 'key-numbers' },
-    ...numbers.map(([name, value]) => element('div', {}, element('dt', {}, name), element('dd', {}, value))),
+    ...[...numbers, ...inBar].map((one) => {
+      const [name, value] = one;
+      const kind = inBar.includes(one) ? 'in-bar' : null;
+      return element('div', { class: kind }, element('dt', {}, name), element('dd', {}, value));
+    }),
   );
 }
 

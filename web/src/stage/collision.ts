@@ -10,6 +10,7 @@ import { reach } from './extent';
 import { Floor } from './floor';
 import type { Palette } from './palette';
 import { Poses } from './poses';
+import type { IsMarked } from './poses';
 import { Solid } from './solid';
 import { Trajectory } from './trajectory';
 
@@ -36,6 +37,7 @@ export class Collision extends Group {
     private readonly model: Model | null,
     all: Sphere,
     private readonly colours: Palette,
+    isMarked: IsMarked | null,
   ) {
     super();
     this.floor = new Floor(scene, all, colours);
@@ -47,7 +49,9 @@ export class Collision extends Group {
       spins: new Group(),
     };
     this.add(this.floor, ...Object.values(this.drawn));
-    this.poses = scene.bodies.map((body) => new Poses(body, model ? singleOutliers(model) : [], colours));
+    this.poses = scene.bodies.map(
+      (body) => new Poses(body, model ? singleOutliers(model) : [], colours, isMarked),
+    );
     this.drawn.poses.add(...this.poses);
     this.addMotion(all.radius);
     this.addImpulse(all.radius);

@@ -4,6 +4,7 @@ export interface Palette {
   ground: string;
   ink: string;
   faint: string;
+  quiet: string;
   grid: string;
   before: string;
   after: string;
@@ -20,6 +21,7 @@ export function palette(): Palette {
     ground: colour('stage'),
     ink: colour('ink'),
     faint: colour('faint'),
+    quiet: colour('quiet'),
     grid: colour('grid'),
     before: colour('before'),
     after: colour('after'),

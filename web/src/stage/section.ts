@@ -3,10 +3,13 @@
 import type { Clock } from '../clock';
 import { element, freshId } from '../element';
 import { length } from '../numbers';
+import { singleOutliers } from '../outliers';
 import type { Model, Scene } from '../report';
 import { saveCanvas } from '../save';
 import { inLight } from '../theme';
 import { Timeline } from './timeline';
+import { strideOf } from './poses';
+import type { IsMarked } from './poses';
 import { Stage } from './stage';
 import type { Layer } from './collision';
 import { LAYERS } from './collision';
@@ -63,10 +66,19 @@ export class StageSection {
     window.addEventListener('beforeprint', () => this.keepStill());
   }
 
-  show(scene: Scene, model: Model | null): void {
+  /** `isMarked` says which poses the user left out. */
+  show(scene: Scene, model: Model | null, isMarked: IsMarked | null): void {
     this.timeline.show(scene);
-    this.stage?.show(scene, model);
-    if (this.stage) this.grid.textContent = gridNote(scene, model, this.stage.square);
+    this.stage?.show(scene, model, isMarked);
+    if (this.stage === null) return;
+    const note = gridNote(scene, model, this.stage.square);
+    const stride = Math.max(...scene.bodies.map(strideOf));
+    const kinds = [
+      stride > 1 && `Of long films one pose in ${stride} is outlined.`,
+      model && singleOutliers(model).length > 0 && 'Thick outlines are outliers.',
+      isMarked && hasMarked(scene, isMarked) && 'Dashed outlines are marked wrong.',
+    ];
+    this.grid.textContent = [note, ...kinds].filter(Boolean).join(' ');
   }
 
   repaint(): void {
@@ -164,6 +176,10 @@ export class StageSection {
     );
     return choice;
   }
+}
+
+function hasMarked(scene: Scene, isMarked: IsMarked): boolean {
+  return scene.bodies.some((body) => body.observations.some((_, index) => isMarked(body.name, index)));
 }
 
 function gridNote(scene: Scene, model: Model | null, square: number): string {

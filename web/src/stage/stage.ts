@@ -19,6 +19,7 @@ import type { Layer } from './collision';
 import { dispose } from './dispose';
 import { extent, reach } from './extent';
 import { palette } from './palette';
+import type { IsMarked } from './poses';
 import { Tags } from './tags';
 import { direction, distance } from './views';
 import type { View } from './views';
@@ -33,6 +34,7 @@ export class Stage {
   private collision: Collision | null = null;
   private scene: Scene | null = null;
   private model: Model | null = null;
+  private isMarked: IsMarked | null = null;
   private all = new Sphere();
   private time = 0;
   private exaggeration = 0;
@@ -78,10 +80,11 @@ export class Stage {
   private readonly renderer: WebGLRenderer;
 
   /** Shows a model, in place of what was shown; the camera stays unless the scene is new. */
-  show(scene: Scene, model: Model | null): void {
+  show(scene: Scene, model: Model | null, isMarked: IsMarked | null): void {
     const isFirst = this.scene === null;
     this.scene = scene;
     this.model = model;
+    this.isMarked = isMarked;
     this.all = extent(scene, model);
     this.rebuild();
     if (isFirst) this.look('overview');
@@ -94,7 +97,7 @@ export class Stage {
     if (this.collision) dispose(this.collision);
     this.world.clear();
     this.world.background = new Color(colours.ground);
-    this.collision = new Collision(this.scene, this.model, this.all, colours);
+    this.collision = new Collision(this.scene, this.model, this.all, colours, this.isMarked);
     const sky = new HemisphereLight(0xffffff, 0x9a9080, 1.6);
     sky.position.copy(this.camera.up);
     this.world.add(sky, new AmbientLight(0xffffff, 0.25), this.camera, this.collision);

@@ -6,7 +6,7 @@ import type { Studio } from './studio';
 const WORDS = {
   lost:
     'smash doesn’t answer: it was stopped, or is busy. This page tries again by itself; what you did is saved. ' +
-    'What you typed since then stands only here: copy it before you leave this page. ' +
+    'A law that you type now is kept by this browser until then; in a private window copy it. ' +
     'If it was stopped, start smash studio again with the same scene, and open the address that it prints.',
   refused:
     'smash runs, but under another address: it was started again. Open the address that it printed; the session is there.',

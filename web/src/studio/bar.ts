@@ -1,6 +1,7 @@
 // Always in sight: the current model, how well it fits, undo and redo, files.
 
 import { element, refill } from '../element';
+import { isTyping } from '../keys';
 import { angle, length, significant } from '../numbers';
 import { saveBlob } from '../save';
 import type { StudioState, Variant } from '../studio_state';
@@ -35,6 +36,15 @@ export class Bar {
     studio.state.watch((state) => this.show(state));
   }
 
+  /** Ctrl-Z and Ctrl-Shift-Z, but where one types: there they are the text's. */
+  press(event: KeyboardEvent): void {
+    const isZ = (event.ctrlKey || event.metaKey) && !event.altKey && event.key.toLowerCase() === 'z';
+    if (!isZ || event.defaultPrevented || isTyping(event.target as HTMLElement)) return;
+    event.preventDefault();
+    const way = event.shiftKey ? 'redo' : 'undo';
+    if (this.studio.state.value[way] !== null) void this.studio.act({ do: way }, this.line);
+  }
+
   private show(state: StudioState): void {
     const { studio, line } = this;
     const step = (way: 'undo' | 'redo', words: string): HTMLElement =>
@@ -44,6 +54,7 @@ export class Bar {
           type: 'button',
           id: way,
           'data-testid': way,
+          title: way === 'undo' ? 'Undo (Ctrl Z)' : 'Redo (Ctrl Shift Z)',
           disabled: state[way] === null,
           onclick: () => void studio.act({ do: way }, line),
         },

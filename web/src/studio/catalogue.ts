@@ -6,11 +6,15 @@ import type { CatalogueEffect, OwnLaw, StudioState } from '../studio_state';
 import { ErrorLine } from './error_line';
 import type { Studio } from './studio';
 
+type Addable = Pick<CatalogueEffect, 'name' | 'labels' | 'reason'>;
+
 export class Catalogue {
   readonly root: HTMLElement;
   private readonly list = element('ul', { class: 'catalogue', 'data-testid': 'catalogue' });
   private readonly search: HTMLInputElement;
   private readonly line = new ErrorLine();
+  /** The effects whose description is open. */
+  private readonly open = new Set<string>();
 
   /** `edit` puts a law's text into the editor. */
   constructor(
@@ -27,8 +31,7 @@ export class Catalogue {
     this.root = element(
       'div',
       { class: 'catalogue-section' },
-      element('h2', {}, 'Effects'),
-      this.search,
+      element('div', { class: 'row' }, element('h2', {}, 'Effects'), this.search),
       this.line.root,
       this.list,
     );
@@ -57,35 +60,38 @@ export class Catalogue {
   }
 
   private effect(effect: CatalogueEffect, present: string[]): HTMLElement {
-    return element(
-      'li',
-      {},
-      element('div', { class: 'row' }, element('strong', {}, effect.title), ...this.buttons(effect, present)),
+    const more = element(
+      'details',
+      {
+        open: this.open.has(effect.name),
+        ontoggle: () => {
+          if (more.open) this.open.add(effect.name);
+          else this.open.delete(effect.name);
+        },
+      },
+      element('summary', { id: `about-${effect.name}` }, effect.title),
       element('div', { class: 'hint' }, element('code', {}, effect.name), ` ${effect.looks_like}`),
       effect.tell_apart !== '' && element('div', { class: 'hint' }, `To tell it apart: ${effect.tell_apart}`),
     );
+    return element('li', {}, more, ...this.buttons(effect, present));
   }
 
   private law(law: OwnLaw, present: string[]): HTMLElement {
     return element(
       'li',
       {},
-      element(
-        'div',
-        { class: 'row' },
-        element('strong', {}, law.name),
-        element('span', { class: 'hint' }, 'your own'),
-        ...this.buttons(law, present),
-        element('button', { type: 'button', onclick: () => this.edit(law.text) }, 'Edit'),
-      ),
+      element('strong', {}, law.name),
+      element('span', { class: 'hint' }, 'your own'),
+      ...this.buttons({ ...law, reason: null }, present),
+      element('button', { type: 'button', onclick: () => this.edit(law.text) }, 'Edit'),
     );
   }
 
   /** To take out what is in the model, and to add what can be: what acts at one moment, more than once. */
-  private buttons({ name, labels }: { name: string; labels: string[] }, present: string[]): Child[] {
+  private buttons({ name, labels, reason }: Addable, present: string[]): Child[] {
     const own = new Set(present.filter((label) => isOf(name, label)));
     if (own.size + labels.length === 0)
-      return [element('span', { class: 'hint' }, 'this scene can’t show it')];
+      return [element('span', { class: 'hint' }, reason ?? 'this scene can’t show it')];
     return [
       ...[...own].map((label) => this.button('remove', label, `effect-${label}`)),
       ...labels.map((label) =>

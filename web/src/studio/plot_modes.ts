@@ -13,17 +13,24 @@ const WORDS: Record<Mode, [name: string, how: string]> = {
   ],
   mark: ['mark wrong', 'Click a pose to leave it out of the fit; click it again to take it back.'],
   time: ['move in time', 'Drag a pose to the left or right, up to its neighbours.'],
-  noise: ['noise', 'Drag the edge of the grey band, ±2 σ.'],
+  noise: [
+    'noise',
+    'Drag the edge of the grey band, ±2 σ of all poses; or a pose up or down: the bar is ±2 σ of its own.',
+  ],
 };
 
 export class PlotModes implements PoseActs {
   readonly root: HTMLElement;
   mode: Mode = 'look';
+  private marked = new Set<string>();
 
   constructor(
     private readonly studio: Studio,
     private readonly line: ErrorLine,
   ) {
+    studio.state.watch(({ edits }) => {
+      this.marked = new Set(edits.marked.map((pose) => `${pose.observation} ${pose.body}`));
+    });
     const how = element('p', { class: 'hint' }, WORDS[this.mode][1]);
     const choices = MODES.map((mode) =>
       element(
@@ -50,11 +57,8 @@ export class PlotModes implements PoseActs {
     );
   }
 
-  isMarked(body: string, observation: number): boolean {
-    return this.studio.state.value.edits.marked.some(
-      (pose) => pose.body === body && pose.observation === observation,
-    );
-  }
+  readonly isMarked = (body: string, observation: number): boolean =>
+    this.marked.has(`${observation} ${body}`);
 
   mark(body: string, observation: number, wrong: boolean): void {
     void this.studio.act({ do: 'mark', body, observation, wrong }, this.line);
@@ -62,6 +66,10 @@ export class PlotModes implements PoseActs {
 
   move(body: string, observation: number, time: number): void {
     void this.studio.act({ do: 'time', body, observation, time }, this.line);
+  }
+
+  poseNoise(body: string, observation: number, scale: number): void {
+    void this.studio.act({ do: 'pose_noise', body, observation, scale }, this.line);
   }
 
   noise(channel: 'position' | 'orientation', sigma: number): void {

@@ -1,20 +1,24 @@
-// Poses, their times and the noise: what plots do by the mouse, by the keyboard.
+// Poses, their times and their own noise: what plots do by the mouse, by the keyboard.
 
 import { element, refill } from '../element';
 import type { Child } from '../element';
-import { DEGREES, fixed, significant } from '../numbers';
-import type { Maybe } from '../numbers';
+import { fixed, significant } from '../numbers';
 import type { Body } from '../report';
 import type { Action, StudioState } from '../studio_state';
 import { table } from '../table';
 import { ErrorLine } from './error_line';
+import { noiseForm } from './noise_form';
 import type { Studio } from './studio';
+
+/** More rows are slow, and nobody reads them. */
+const MOST_ROWS = 200;
 
 export class Poses {
   readonly root: HTMLElement;
-  private readonly noise = element('div', { class: 'row' });
   private readonly lists = element('div');
   private readonly open = new Set<string>();
+  /** The first pose that is listed, by body. */
+  private readonly first = new Map<string, number>();
 
   constructor(
     private readonly studio: Studio,
@@ -25,85 +29,25 @@ export class Poses {
       { 'aria-label': 'Poses and noise', class: 'poses' },
       element('h2', {}, 'Poses and noise'),
       line.root,
-      this.noise,
+      noiseForm(studio, line),
       this.lists,
     );
     studio.state.watch((state) => this.show(state));
   }
 
   private show(state: StudioState): void {
-    this.showNoise(state);
     refill(this.lists, ...state.report.scene.bodies.map((body) => this.list(state, body)));
-  }
-
-  private showNoise(state: StudioState): void {
-    const stated = state.edits.noise ?? state.report.scene.noise;
-    const field = (id: string, value: Maybe<number>, words: string): HTMLInputElement =>
-      element('input', {
-        type: 'number',
-        id,
-        min: 0,
-        step: 'any',
-        'data-testid': id,
-        'aria-label': words,
-        class: 'short-field',
-        value: typeof value !== 'number' ? null : Number(value.toPrecision(6)),
-      });
-    const position = field(
-      'noise-position',
-      stated && stated.position * 1000,
-      'One σ of a position coordinate, mm',
-    );
-    const turn = field(
-      'noise-orientation',
-      stated && stated.orientation * DEGREES,
-      'One σ of an orientation, degrees',
-    );
-    const state_it = (): void =>
-      void this.studio.act(
-        {
-          do: 'noise',
-          position: position.valueAsNumber / 1000,
-          orientation: turn.valueAsNumber / DEGREES,
-        },
-        this.line,
-      );
-    const form = element(
-      'form',
-      {
-        class: 'row',
-        onsubmit: (event: SubmitEvent) => {
-          event.preventDefault();
-          state_it();
-        },
-      },
-      'Noise, one σ: ',
-      position,
-      ' mm a coordinate, ',
-      turn,
-      ' ° an axis ',
-      element('button', { id: 'noise-state', 'data-testid': 'noise-state' }, 'State it'),
-      state.edits.noise !== null &&
-        element(
-          'button',
-          {
-            type: 'button',
-            id: 'noise-reset',
-            'data-testid': 'noise-reset',
-            onclick: () => void this.studio.act({ do: 'noise' }, this.line),
-          },
-          'As in the scene',
-        ),
-      !stated &&
-        element('span', { class: 'hint' }, 'The scene states none: it is estimated from the residuals.'),
-    );
-    refill(this.noise, form);
   }
 
   private list(state: StudioState, body: Body): HTMLElement {
     const marked = state.edits.marked.filter((pose) => pose.body === body.name).length;
     const moved = state.edits.times.filter((pose) => pose.body === body.name).length;
-    const changes = [marked > 0 && `${marked} marked wrong`, moved > 0 && `${moved} at another time`]
+    const noisy = state.edits.noise_scales.filter((pose) => pose.body === body.name).length;
+    const changes = [
+      marked > 0 && `${marked} marked wrong`,
+      moved > 0 && `${moved} at another time`,
+      noisy > 0 && `${noisy} of another noise`,
+    ]
       .filter(Boolean)
       .join(', ');
     const isOpen = this.open.has(body.name);
@@ -132,19 +76,55 @@ export class Poses {
   }
 
   private table(state: StudioState, body: Body): HTMLElement {
-    return table(
+    const count = body.observations.length;
+    const first = Math.min(this.first.get(body.name) ?? 0, count - 1);
+    const facts = factsOf(state, body.name);
+    const rows: Child[][] = [];
+    for (let index = first; index < Math.min(first + MOST_ROWS, count); index += 1)
+      rows.push(this.row(state, body, index, facts.get(index)));
+    const made = table(
       `Poses of ${body.name}, counted from 0; a wrong one is left out of the fit`,
       [
         { head: 'pose' },
         { head: 'time, s' },
         { head: 'farthest off along an axis', isNumber: true },
+        { head: 'noise ×' },
         { head: 'wrong' },
       ],
-      body.observations.map((_, index) => this.row(state, body, index)),
+      rows,
+    );
+    return element('div', {}, count > MOST_ROWS && this.pages(body, first), made);
+  }
+
+  /** Of long films so many poses at once. */
+  private pages(body: Body, first: number): HTMLElement {
+    const count = body.observations.length;
+    const to = (start: number, words: string): HTMLElement =>
+      element(
+        'button',
+        {
+          type: 'button',
+          id: `${words}-${body.name}`,
+          'data-testid': `${words}-${body.name}`,
+          disabled: start < 0 || start >= count,
+          onclick: () => {
+            this.first.set(body.name, start);
+            this.show(this.studio.state.value);
+          },
+        },
+        words,
+      );
+    const last = Math.min(first + MOST_ROWS, count) - 1;
+    return element(
+      'p',
+      { class: 'row hint' },
+      `Poses ${first} to ${last} of ${count}. `,
+      to(first - MOST_ROWS, 'earlier'),
+      to(first + MOST_ROWS, 'later'),
     );
   }
 
-  private row(state: StudioState, body: Body, index: number): Child[] {
+  private row(state: StudioState, body: Body, index: number, facts: Facts = NO_FACTS): Child[] {
     const is = (pose: { body: string; observation: number }): boolean =>
       pose.body === body.name && pose.observation === index;
     const key = `${body.name}-${index}`;
@@ -178,11 +158,29 @@ export class Poses {
           wrong: wrong.checked,
         }),
     });
+    const scale = element('input', {
+      type: 'number',
+      min: 0,
+      step: 'any',
+      id: `scale-${key}`,
+      class: 'short-field',
+      'data-testid': `scale-${key}`,
+      'aria-label': `Noise of pose ${index} of ${body.name}, times that of the others`,
+      value: Number(facts.scale.toPrecision(6)),
+      onchange: () =>
+        void this.change(scale, {
+          do: 'pose_noise',
+          body: body.name,
+          observation: index,
+          scale: scale.valueAsNumber,
+        }),
+    });
     const isMoved = state.edits.times.some(is);
     return [
       index,
       element('span', {}, time, isMoved && element('span', { class: 'hint' }, ' moved')),
-      farthest(state, body.name, index),
+      facts.farthest === null ? '–' : `${significant(facts.farthest, 2)} σ`,
+      scale,
       wrong,
     ];
   }
@@ -195,15 +193,26 @@ export class Poses {
   }
 }
 
-/** The largest of a pose's residuals, in σ where there is a noise. */
-function farthest(state: StudioState, body: string, observation: number): string {
-  const residuals = (state.report.models[0]?.series ?? [])
-    .filter((series) => series.body === body && series.sigma)
-    .flatMap((series) =>
-      series.points
-        .filter((point) => point.observation === observation)
-        .map((point) => point.value / (series.sigma ?? 1)),
-    );
-  if (residuals.length === 0) return '–';
-  return `${significant(Math.max(...residuals.map(Math.abs)), 2)} σ`;
+/** What the plots tell of a pose. */
+interface Facts {
+  /** The largest of its residuals, in σ; null where there is no noise. */
+  farthest: number | null;
+  /** Its own σ over that of the others. */
+  scale: number;
+}
+
+const NO_FACTS: Facts = { farthest: null, scale: 1 };
+
+function factsOf(state: StudioState, body: string): Map<number, Facts> {
+  const facts = new Map<number, Facts>();
+  for (const { body: owner, sigma, points } of state.report.models[0]?.series ?? []) {
+    if (owner !== body) continue;
+    for (const point of points) {
+      const scale = point.noise_scale ?? 1;
+      const off = sigma ? Math.abs(point.value) / (sigma * scale) : null;
+      const known = facts.get(point.observation)?.farthest ?? null;
+      facts.set(point.observation, { farthest: off === null ? known : Math.max(off, known ?? 0), scale });
+    }
+  }
+  return facts;
 }

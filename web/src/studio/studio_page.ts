@@ -23,8 +23,10 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
   const missingLine = new ErrorLine();
   const modes = new PlotModes(studio, plotLine);
   const catalogue = new Catalogue(studio, (text) => law.edit(text));
+  const bar = new Bar(studio);
+  window.addEventListener('keydown', (event) => bar.press(event));
   const page = new ReportPage(root, {
-    top: [banner(studio), new Bar(studio).root],
+    top: [banner(studio), bar.root],
     model: element(
       'section',
       { class: 'model', 'aria-label': 'The model' },
@@ -34,6 +36,10 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
     plotTools: element('div', {}, modes.root, plotLine.root),
     sections: [law.root, new Poses(studio, poseLine).root],
     acts: modes,
+    keys: [
+      ['Ctrl Z', 'undo'],
+      ['Ctrl Shift Z', 'redo'],
+    ],
     adder: (effect) =>
       element(
         'button',

@@ -13,6 +13,7 @@ export class Variants {
   readonly root: HTMLElement;
   private readonly content = element('div');
   private readonly line = new ErrorLine();
+  private followed: number | null = null;
 
   constructor(private readonly studio: Studio) {
     this.root = element(
@@ -46,7 +47,7 @@ export class Variants {
     refill(
       this.content,
       table(
-        `Each act makes a variant, and none is lost: click one to go there. All is saved in ${state.session_file}`,
+        `Click one to go there; none is lost. Saved in ${state.session_file}`,
         [
           { head: 'what was done' },
           { head: 'positions', isNumber: true },
@@ -60,6 +61,19 @@ export class Variants {
         'variants',
       ),
     );
+    this.follow(state);
+  }
+
+  /** Brings the current one into sight, once it is another. */
+  private follow(state: StudioState): void {
+    if (state.current === this.followed) return;
+    this.followed = state.current;
+    const row = this.content.querySelector<HTMLElement>('[aria-current]')?.closest('tr');
+    const scroll = row?.closest('.scroll');
+    if (!row || !scroll) return;
+    const [inner, outer] = [row.getBoundingClientRect(), scroll.getBoundingClientRect()];
+    if (inner.top < outer.top || inner.bottom > outer.bottom)
+      scroll.scrollTop += inner.top - outer.top - (outer.height - inner.height) / 2;
   }
 
   private name(state: StudioState, variant: Variant, depth: number): HTMLElement {
