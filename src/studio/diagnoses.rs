@@ -6,10 +6,12 @@ use std::sync::{Arc, Mutex, OnceLock};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::locked;
-use crate::{Diagnosis, Error, ErrorKind, Result};
+use crate::{Diagnosis, Error, ErrorKind, Result, Scene};
 
 /// Diagnoses that are kept.
 const MOST_KEPT: usize = 32;
+/// Poses of all bodies that are diagnosed: the memory grows with their square, some 2 GB here.
+const MOST_POSES: usize = 5_000;
 
 /// The diagnoses of a studio's variants.
 #[derive(Debug)]
@@ -91,6 +93,17 @@ impl Diagnoses {
         asked.push(Asked { subject, found: found.clone() });
         found
     }
+}
+
+/// Refuses what would take all memory, and the studio with it.
+pub(super) fn check_size(scene: &Scene) -> Result<()> {
+    let poses: usize = scene.bodies().iter().map(|body| body.observations.len()).sum();
+    if poses <= MOST_POSES {
+        return Ok(());
+    }
+    let problem = format!("the scene has {poses} poses: too many to tell what is missing");
+    Err(Error::invalid("bodies", problem)
+        .mend(format!("keep {MOST_POSES} in all, around the collision, or every n-th of them")))
 }
 
 /// Advice with the scene's own name in its commands; further scenes stay to be named.

@@ -176,6 +176,7 @@ impl Studio {
         diagnose: impl FnOnce(&Scene, &RefinedOptions, &[EffectRequest]) -> Result<Diagnosis> + Send,
     ) -> Result<Diagnosis> {
         let shown = self.shown();
+        diagnoses::check_size(&shown.fit.scene)?;
         let variant = shown.session.tree.current;
         let further: Vec<_> = shown.session.laws().into_iter().map(shown::request).collect();
         let effects = shown.session.requests(&self.scene);

@@ -40,3 +40,32 @@ fn a_diagnosis_is_asked_again_after_a_law_changed() {
     assert!(!studio.get("api/report").body.contains("\"schema\":\"smash.diagnosis/1\""));
     assert_ne!(gain(studio.get("api/diagnosis").json()), first);
 }
+
+/// All else goes on.
+#[test]
+fn a_scene_of_too_many_poses_is_not_diagnosed() {
+    let folder = tempfile::tempdir().unwrap();
+    let observations: Vec<Value> = (0..5_001)
+        .map(|index| {
+            let time = f64::from(index) / 2_500.0 - 1.0;
+            let height = if time < 0.0 { -time } else { 0.7 * time } - 0.5 * 9.81 * time * time;
+            json!({"time": time, "position": [time, 0.1 + height, 0.0]})
+        })
+        .collect();
+    let scene = json!({
+        "schema": "smash.scene/1",
+        "noise": {"position": 0.001, "orientation": 0.01},
+        "bodies": [
+            {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "observations": observations},
+            {"name": "floor", "static": true, "normal": [0, 1, 0], "height": 0},
+        ],
+    });
+    std::fs::write(folder.path().join("long.json"), scene.to_string()).unwrap();
+    let studio = Running::in_folder(folder, "long.json");
+    let answer = studio.get("api/diagnosis");
+    assert_eq!(answer.status, 409);
+    let mend = answer.value()["error"]["mend"].clone();
+    assert!(mend.as_str().unwrap().contains("every n-th"), "{mend}");
+    let marked = json!({"do": "mark", "body": "ball", "observation": 0, "wrong": true});
+    assert_eq!(studio.act(marked)["current"], 1);
+}
