@@ -23,7 +23,9 @@ impl Lock {
     pub(super) fn take(output: &Output) -> Result<Lock> {
         let path = beside(output.target());
         loop {
-            let file = File::create(&path).map_err(|error| {
+            // Never emptied: it may be a link to somebody's file.
+            let opened = File::options().write(true).create(true).truncate(false).open(&path);
+            let file = opened.map_err(|error| {
                 Error::new(ErrorKind::Write, format!("can't be made: {}", plain(&error)))
                     .in_file(path.display().to_string())
                     .mend("choose another place for the session: --session FILE")

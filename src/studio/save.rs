@@ -66,6 +66,7 @@ impl Save {
     /// The file can't be written, or somebody else has changed it; then it stays as it is.
     pub(super) fn write(&mut self, text: &str) -> Result<()> {
         let found = self.on_disk()?.as_deref().map(sha256);
+        // Other studios are locked out; an editor or a copy may have been here since.
         // One that was removed is made again: nothing is lost by that.
         if found.is_some() && found != self.known {
             return Err(Error::new(ErrorKind::Write, "another program has changed it; it was left as it is")
