@@ -77,6 +77,11 @@ fn write_words(
     again: impl Fn(&Rung) -> String,
 ) -> std::fmt::Result {
     writeln!(out, "{}", aligned(&table_of(&improvement.ladder)))?;
+    for rung in improvement.ladder.iter().filter(|rung| !rung.indistinguishable_from.is_empty()) {
+        let added = rung.added.as_deref().unwrap_or_default();
+        let others = rung.indistinguishable_from.join(" or ");
+        writeln!(out, "These poses can't tell {added} from {others}.\n")?;
+    }
     if !improvement.dropped.is_empty() {
         writeln!(
             out,

@@ -38,7 +38,7 @@ pub(crate) use leftover::Leftover;
 pub(crate) use pooled::{Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes};
 pub(crate) use rivals::rivals;
-pub(crate) use throws::{best_of, instances, looks, reduced_chi2, throws};
+pub(crate) use throws::{alike, best_of, instances, looks, mean_inflation, reduced_chi2, throws};
 
 use rayon::prelude::*;
 

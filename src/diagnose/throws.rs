@@ -130,7 +130,8 @@ fn with_effect<'a>(throws: &[Throw<'a>], effect: &PooledCandidate) -> Result<Vec
     throws.iter().enumerate().map(with).collect()
 }
 
-fn mean_inflation(throws: &[Throw]) -> f64 {
+/// How much less differences count where something is left in the residuals.
+pub(crate) fn mean_inflation(throws: &[Throw]) -> f64 {
     throws.iter().map(|throw| inflation(&throw.fitted)).sum::<f64>() / throws.len() as f64
 }
 
@@ -173,11 +174,7 @@ fn report(
     let (throw, own) =
         throws.iter().zip(&candidate.own).find_map(|(t, own)| Some((t, own.as_ref()?)))?;
     let instance = &own.instance;
-    let alike = candidates.iter().enumerate().filter(|(other, one)| {
-        *other != index
-            && one.stands_out() == candidate.stands_out()
-            && (one.bic - candidate.bic).abs() < TELLS_APART * inflation
-    });
+    let alike = alike(candidates, candidate, inflation);
     let each = throws.iter().zip(&candidate.own).filter_map(|(throw, own)| {
         let own = own.as_ref()?;
         let stds = own_stds(own);
@@ -199,13 +196,27 @@ fn report(
             true => parameters(instance, &candidate.values, &candidate.stds),
             false => BTreeMap::new(),
         },
-        indistinguishable_from: alike.map(|(_, one)| one.label.clone()).collect(),
+        indistinguishable_from: alike.map(|one| one.label.clone()).collect(),
         shifts: Vec::new(),
         throws: Some(Agreement {
             p_value: candidate.agreement,
             scatter: candidate.scatter,
             each: each.collect(),
         }),
+    })
+}
+
+/// The candidates that the throws can't tell from `candidate`, where differences count for less by
+/// `inflation`.
+pub(crate) fn alike<'a>(
+    candidates: &'a [PooledCandidate],
+    candidate: &'a PooledCandidate,
+    inflation: f64,
+) -> impl Iterator<Item = &'a PooledCandidate> {
+    candidates.iter().filter(move |other| {
+        other.label != candidate.label
+            && other.stands_out() == candidate.stands_out()
+            && (other.bic - candidate.bic).abs() < TELLS_APART * inflation
     })
 }
 

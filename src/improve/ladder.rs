@@ -38,6 +38,9 @@ pub struct Rung {
     pub with: Vec<String>,
     /// How often noise alone would seem such an effect, any of all candidates; null of the first.
     pub p_value: Option<f64>,
+    /// `NAME@BODY` of the effects that the poses can't tell from it, given those before.
+    #[serde(default)]
+    pub indistinguishable_from: Vec<String>,
     /// Root mean square over all position coordinates, m.
     pub position_rmse: f64,
     /// Root mean square over all components of the rotation vectors, rad; null without orientations.

@@ -42,6 +42,7 @@ pub fn improve(
         fitted = fitted.with(scene, &step.instance)?;
         let mut next = rung(scene, Some(step.instance.label(scene)), &fitted)?;
         next.p_value = Some(step.p_value);
+        next.indistinguishable_from.clone_from(&step.look_alikes);
         rungs.push(next);
     }
     let with: Vec<String> = found.steps.iter().map(|step| step.instance.label(scene)).collect();
@@ -64,6 +65,7 @@ fn rung(scene: &Scene, added: Option<String>, fitted: &Fitted) -> Result<Rung> {
         added,
         with: Vec::new(),
         p_value: None,
+        indistinguishable_from: Vec::new(),
         position_rmse: result.fit.position_rmse,
         orientation_rmse: result.fit.orientation_rmse,
         reduced_chi2: result.fit.reduced_chi2,

@@ -3,8 +3,8 @@
 //! superfluous is dropped at the end.
 
 use crate::diagnose::{
-    Candidate, FALSE_ALARM, Goodness, Leftover, TELLS_APART, all_candidates, evidence, rivals,
-    tried,
+    Candidate, FALSE_ALARM, Goodness, Leftover, TELLS_APART, all_candidates, evidence, look_alikes,
+    rivals, tried,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{Fitted, Instance, points};
@@ -20,6 +20,8 @@ const MOST_EFFECTS: usize = 4;
 pub(super) struct Step {
     pub(super) instance: Instance,
     pub(super) p_value: f64,
+    /// Labels of what the poses can't tell from it, given the effects before.
+    pub(super) look_alikes: Vec<String>,
 }
 
 /// The best model.
@@ -49,8 +51,9 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
         for hypothesis in &climbing {
             let instances = all_candidates(scene, &hypothesis.fitted, further)?;
             let candidates = tried(scene, &hypothesis.fitted, &instances);
-            let good = candidates.into_iter().filter(Candidate::stands_out).take(HYPOTHESES);
-            next.extend(good.map(|candidate| hypothesis.extended(candidate)));
+            let good = (0..candidates.len()).filter(|&index| candidates[index].stands_out());
+            let good = good.take(HYPOTHESES);
+            next.extend(good.map(|index| hypothesis.extended(scene, &candidates, index)));
         }
         next.sort_by(|a, b| a.bic.total_cmp(&b.bic));
         next.dedup_by(|a, b| a.is_same_set(b, scene));
@@ -75,11 +78,16 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
 }
 
 impl Hypothesis {
-    fn extended(&self, candidate: Candidate) -> Hypothesis {
-        let mut steps = self.steps.clone();
-        let p_value = candidate.evidence.p_value;
-        steps.push(Step { instance: candidate.instance().clone(), p_value });
-        Hypothesis { bic: self.bic + candidate.bic, fitted: candidate.fitted, steps }
+    fn extended(&self, scene: &Scene, candidates: &[Candidate], index: usize) -> Hypothesis {
+        let candidate = &candidates[index];
+        let alike = look_alikes(candidates, index, 1.0).into_iter();
+        let step = Step {
+            instance: candidate.instance().clone(),
+            p_value: candidate.evidence.p_value,
+            look_alikes: alike.map(|other| candidates[other].instance().label(scene)).collect(),
+        };
+        let steps = self.steps.iter().cloned().chain([step]).collect();
+        Hypothesis { bic: self.bic + candidate.bic, fitted: candidate.fitted.clone(), steps }
     }
 
     fn is_same_set(&self, other: &Hypothesis, scene: &Scene) -> bool {

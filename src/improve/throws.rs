@@ -3,8 +3,8 @@
 
 use super::{Improvement, Rung};
 use crate::diagnose::{
-    Throw, Verdict, best_of, held_out_rmse_m, instances, looks, pooled, reduced_chi2, reported,
-    throws,
+    Throw, Verdict, alike, best_of, held_out_rmse_m, instances, looks, mean_inflation, pooled,
+    reduced_chi2, reported, throws,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
@@ -25,16 +25,23 @@ pub fn improve_throws(
     further: &[EffectRequest],
 ) -> Result<Improvement> {
     let mut throws = throws(scenes, options)?;
-    let mut ladder = vec![rung(&throws, None, None, Vec::new())?];
+    let mut ladder = vec![rung(&throws, Vec::new())?];
     for _ in 0..MOST_EFFECTS {
         let candidates = pooled(&throws, &instances(&throws, further)?);
         let Some((best, with)) = best_of(&throws, &candidates) else { break };
         let setting = (0..throws.len()).find_map(|index| best.held(index));
         let setting = setting.map(|held| with_values(&best.label, &held));
+        let inflation = if looks(&with)?.1 { mean_inflation(&with) } else { 1.0 };
+        let alike = alike(&candidates, best, inflation).map(|other| other.label.clone()).collect();
         throws = with;
         let known = ladder.last().map(|rung: &Rung| rung.with.clone()).unwrap_or_default();
         let with: Vec<String> = known.into_iter().chain(setting).collect();
-        ladder.push(rung(&throws, Some(best.label.clone()), Some(best.p_value), with)?);
+        ladder.push(Rung {
+            added: Some(best.label.clone()),
+            p_value: Some(best.p_value),
+            indistinguishable_from: alike,
+            ..rung(&throws, with)?
+        });
     }
     let (_, is_structured) = looks(&throws)?;
     let verdict = match (ladder.len() > 1, is_structured) {
@@ -63,12 +70,7 @@ fn with_values(label: &str, held: &Instance) -> String {
 }
 
 /// A rung, over the poses of all throws.
-fn rung(
-    throws: &[Throw],
-    added: Option<String>,
-    p_value: Option<f64>,
-    with: Vec<String>,
-) -> Result<Rung> {
+fn rung(throws: &[Throw], with: Vec<String>) -> Result<Rung> {
     let results: Vec<Reconstruction> =
         throws.iter().map(|throw| reported(throw.scene, &throw.fitted)).collect::<Result<_>>()?;
     let poses: Vec<f64> = throws
@@ -85,9 +87,10 @@ fn rung(
     };
     let position = rms(results.iter().map(|result| Some(result.fit.position_rmse)).collect());
     Ok(Rung {
-        added,
+        added: None,
         with,
-        p_value,
+        p_value: None,
+        indistinguishable_from: Vec::new(),
         position_rmse: position.unwrap_or(0.0),
         orientation_rmse: rms(results.iter().map(|r| r.fit.orientation_rmse).collect()),
         reduced_chi2: reduced_chi2(throws),
