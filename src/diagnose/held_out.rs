@@ -11,6 +11,8 @@ use crate::reconstruct::refined::{Fitted, linearised};
 
 /// Blocks that a flight is cut into.
 const BLOCKS: usize = 3;
+/// More poses of a long film make no block: its covariance is dense.
+const LARGEST_BLOCK: usize = 60;
 /// The least precision, 1/σ², of a prediction: what is foretold to no better than some four times the
 /// noise is judged by the rounding of the fit and the bend of the model, not by the effect.
 const PREDICTED: f64 = 0.05;
@@ -24,8 +26,9 @@ pub(crate) struct HeldOut {
 #[derive(Debug, Clone)]
 struct Block {
     rows: Vec<Row>,
-    /// Along what is predicted, with the precision of each direction.
-    directions: Vec<(f64, DVector<f64>)>,
+    /// The directions that the block has a part in fitting, with the precision that it is predicted
+    /// with along each, 1/σ²; 0 along what isn't predicted. Along all others it is 1: the noise's.
+    fitted: Vec<(f64, DVector<f64>)>,
     /// By how much each number is missed, over its noise.
     missed: DVector<f64>,
 }
@@ -49,20 +52,17 @@ impl HeldOut {
     pub(crate) fn of(fitted: &Fitted, collision_time_s: f64) -> Option<HeldOut> {
         let best = fitted.best();
         let tangent = linearised(&fitted.refined, &best.solution.unknowns, best.gap).ok()?;
+        let root = square_root(&best.covariance.matrix);
         let predicted = |rows: Vec<Row>| {
             let indices: Vec<usize> = rows.iter().map(|row| row.index).collect();
-            let jacobian = tangent.jacobian.select_rows(&indices);
-            let residuals = tangent.residuals.select_rows(&indices);
-            let hat = &jacobian * &best.covariance.matrix * jacobian.transpose();
-            let size = rows.len();
-            let rest = DMatrix::identity(size, size) - 0.5 * (&hat + hat.transpose());
-            let directions = directions(&rest);
-            let along = |(precision, direction): &(f64, DVector<f64>)| {
-                direction * (direction.dot(&residuals) / precision)
-            };
-            let missed =
-                directions.iter().map(along).fold(DVector::zeros(size), |sum, one| sum + one);
-            Block { rows, directions, missed }
+            let fitted = fitted_directions(&(tangent.jacobian.select_rows(&indices) * &root));
+            let mut missed = tangent.residuals.select_rows(&indices);
+            for (precision, direction) in &fitted {
+                let along = direction.dot(&missed);
+                let foretold = if *precision > 0.0 { along / precision } else { 0.0 };
+                missed.axpy(foretold - along, direction, 1.0);
+            }
+            Block { rows, fitted, missed }
         };
         let blocks = blocks(fitted, collision_time_s).into_iter().map(predicted).collect();
         Some(HeldOut { blocks })
@@ -74,9 +74,9 @@ impl HeldOut {
         for block in &self.blocks {
             for (place, row) in block.rows.iter().enumerate().filter(|(_, row)| row.is_position) {
                 let part = |(precision, direction): &(f64, DVector<f64>)| {
-                    precision * direction[place].powi(2)
+                    (precision - 1.0) * direction[place].powi(2)
                 };
-                let weight: f64 = block.directions.iter().map(part).sum();
+                let weight = 1.0 + block.fitted.iter().map(part).sum::<f64>();
                 weights += weight;
                 squares_m2 += weight * (row.std * block.missed[place]).powi(2);
             }
@@ -93,22 +93,43 @@ impl HeldOut {
             let scales = own.rows.iter().zip(&other.rows).map(|(own, other)| other.std / own.std);
             let scales = DVector::from_iterator(own.rows.len(), scales);
             let missed = other.missed.component_mul(&scales);
-            let of = |(precision, direction): &(f64, DVector<f64>)| {
-                let [before, after] = [&missed, &own.missed].map(|m| direction.dot(m).powi(2));
-                precision * (before - after)
-            };
-            own.directions.iter().map(of).sum::<f64>()
+            own.square(&missed) - own.square(&own.missed)
         };
         pairs.map(gain).sum()
     }
 }
 
-/// The directions of a block that are predicted well, each with its precision 1/σ².
-fn directions(precision: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
-    let eigen = precision.clone().symmetric_eigen();
+impl Block {
+    /// The square of what is `missed`, in units of how surely it is predicted.
+    fn square(&self, missed: &DVector<f64>) -> f64 {
+        let along = |(precision, direction): &(f64, DVector<f64>)| {
+            (precision - 1.0) * direction.dot(missed).powi(2)
+        };
+        missed.norm_squared() + self.fitted.iter().map(along).sum::<f64>()
+    }
+}
+
+/// A matrix whose square, times its transpose, is `covariance`.
+fn square_root(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = covariance.clone().symmetric_eigen();
+    let lengths = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
+    eigen.eigenvectors * DMatrix::from_diagonal(&lengths)
+}
+
+/// The eigenvectors of H_BB = `root` · `root`ᵀ but for those of no leverage h, and with each 1 − h, or
+/// 0 where that is too little.
+fn fitted_directions(root: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
+    /// Less is rounding.
+    const LEAST_LEVERAGE: f64 = 1e-12;
+    let eigen = root.tr_mul(root).symmetric_eigen();
     let all = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
-    let predicted = all.filter(|(value, _)| **value > PREDICTED);
-    predicted.map(|(value, direction)| (*value, direction.into_owned())).collect()
+    let all = all.filter(|(leverage, _)| **leverage > LEAST_LEVERAGE);
+    all.map(|(leverage, direction)| {
+        let precision = 1.0 - leverage;
+        let known = if precision > PREDICTED { precision } else { 0.0 };
+        (known, root * direction / leverage.sqrt())
+    })
+    .collect()
 }
 
 /// Each flight of each body, cut into blocks of neighbours.
@@ -118,7 +139,7 @@ fn blocks(fitted: &Fitted, collision_time_s: f64) -> Vec<Vec<Row>> {
     for body in &fitted.refined.bodies {
         let split = body.poses.partition_point(|pose| pose.time_s < collision_time_s);
         for flight in [&body.poses[..split], &body.poses[split..]] {
-            let size = flight.len().div_ceil(BLOCKS).max(1);
+            let size = flight.len().div_ceil(BLOCKS).clamp(1, LARGEST_BLOCK);
             for poses in flight.chunks(size) {
                 let mut rows = Vec::new();
                 for pose in poses {
