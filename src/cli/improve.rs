@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => {
             let typed = Typed::new(&arguments.scenes, &arguments.method, &arguments.further)?;
-            let again = |rung: &Rung| typed.reconstruction(&arguments.method, &rung.with);
+            let again = |rung: &Rung| typed.reconstruction(&rung.with);
             print_bytes(in_words(&improvement, again).as_bytes())
         }
     }

@@ -56,23 +56,6 @@ enum SegmentBy {
 }
 
 impl Method {
-    /// Whether wrong annotations hardly count already.
-    pub fn is_robust(&self) -> bool {
-        self.robust
-    }
-
-    /// The effects, as they were typed.
-    pub fn effects(&self) -> &[String] {
-        &self.with
-    }
-
-    /// The refined method's other options, to be typed again; each after a space.
-    pub fn flags(&self) -> String {
-        let tilt = self.tilt_std.map(|degrees| format!(" --tilt-std {degrees}"));
-        let robust = self.robust.then(|| " --robust".to_string());
-        tilt.into_iter().chain(robust).collect()
-    }
-
     /// What the library is asked for; ends the program with a usage error if that contradicts
     /// itself.
     ///

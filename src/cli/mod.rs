@@ -1,5 +1,6 @@
 //! The commands of `smash`, one file each.
 
+mod again;
 mod batch;
 mod browser;
 mod compare;
@@ -11,6 +12,7 @@ mod effects;
 mod export;
 mod import;
 mod improve;
+mod law_files;
 mod ledger;
 mod method;
 mod power;

@@ -4,9 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use smash::files::{Output, print_bytes, shell_word};
-use smash::reconstruct::{Flag, Preset, SegmentCriterion, reconstruct_with_progress};
+use smash::reconstruct::{
+    Flag, Intervals, Loss, Options, Preset, RefinedOptions, SegmentCriterion,
+    reconstruct_with_progress,
+};
 use smash::{Reconstruction, Result, Scene};
 
+use super::again;
 use super::method::Method;
 use super::progress::ProgressLine;
 use super::summary;
@@ -28,31 +32,37 @@ pub struct Arguments {
 
 impl Arguments {
     /// What is worth trying after `result`.
-    fn next_steps(&self, scene: &Scene, result: &Reconstruction) -> Vec<String> {
+    fn next_steps(&self, scene: &Scene, options: &Options, result: &Reconstruction) -> Vec<String> {
         let path = shell_word(&self.scene.to_string_lossy());
         // Standard input can't be read twice.
         let is_file = self.scene != Path::new("-");
         let mut steps = Vec::new();
         if is_file && result.segment_by == SegmentCriterion::Distance {
-            steps.push(format!(
-                "smash reconstruct {path} --preset paper --segment-by cost    \
-                 finds the right segment more often"
-            ));
+            let by_cost = again::reconstruction(&path, &Options::paper_by_cost());
+            steps.push(format!("{by_cost}    finds the right segment more often"));
         }
         if is_file && result.preset == Preset::Paper {
-            steps.push(format!("smash reconstruct {path}    more accurate, with error bars"));
+            let refined = again::reconstruction(&path, &Options::default());
+            steps.push(format!("{refined}    more accurate, with error bars"));
         }
         if let Some(output) = self.output.as_ref().filter(|_| is_file) {
             let output = shell_word(&output.to_string_lossy());
             steps.push(format!("smash compare {path} {output}    where it misses the poses"));
         }
-        if is_file && result.flags.contains(&Flag::PoorFit) && result.preset == Preset::Refined {
-            steps.push(format!("smash diagnose {path}    which physics the model lacks"));
-        }
-        if is_file && !self.method.is_robust() && result.outliers.len() * 100 > poses(scene) {
-            steps.push(format!(
-                "smash reconstruct {path} --robust    lets wrong annotations hardly count"
-            ));
+        if let (true, Options::Refined(options)) = (is_file, options) {
+            if result.flags.contains(&Flag::PoorFit) {
+                let flags = again::flags(&Options::Refined(options.clone()));
+                let with = again::with(&options.effects);
+                steps.push(format!(
+                    "smash diagnose {path}{flags}{with}    which physics the model lacks"
+                ));
+            }
+            if options.loss != Loss::Robust && result.outliers.len() * 100 > poses(scene) {
+                let intervals = Intervals::Covariance;
+                let robust = RefinedOptions { loss: Loss::Robust, intervals, ..options.clone() };
+                let robust = again::reconstruction(&path, &Options::Refined(robust));
+                steps.push(format!("{robust}    lets wrong annotations hardly count"));
+            }
         }
         if !result.flags.is_empty() || !result.warnings.is_empty() {
             steps.push(
@@ -75,7 +85,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());
     let progress = ProgressLine::new();
-    let result = reconstruct_with_progress(&scene, &arguments.method.options()?, &|step| {
+    let options = arguments.method.options()?;
+    let result = reconstruct_with_progress(&scene, &options, &|step| {
         progress.show(step);
     })
     .map_err(|error| error.in_file(arguments.scene.display().to_string()))?;
@@ -89,7 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => print_bytes(
-            summary::of(&result, &arguments.next_steps(&scene, &result), output.as_ref())
+            summary::of(&result, &arguments.next_steps(&scene, &options, &result), output.as_ref())
                 .as_bytes(),
         ),
     }

@@ -3,13 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::effect::EffectRequest;
+use smash::effect::{EffectRequest, catalogue};
 use smash::files::{Output, display_name, print_bytes, shell_word};
 use smash::improve::Improvement;
-use smash::reconstruct::{Options, Preset, RefinedOptions};
+use smash::reconstruct::{Options, RefinedOptions};
 use smash::report::{page, report, require_page};
 use smash::{Reconstruction, Result, Scene, diagnose, improve, reconstruct};
 
+use super::again;
+use super::law_files::LawFiles;
 use super::typed::Typed;
 
 /// Writes one page to look at: the collision in 3D, residuals, what is missing, all numbers
@@ -38,6 +40,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         arguments.results.iter().chain([&arguments.scene]).map(PathBuf::as_path).collect();
     require_page()?;
     let output = Output::check(&arguments.output, &inputs)?;
+    super::refuse_json_beside(&output, arguments.json)?;
     let scene = Scene::read(&arguments.scene)?;
     super::warn(scene.warnings());
     let read =
@@ -57,7 +60,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     }
     let mut report = report(&scene, &results, Some(diagnosis), Some(improvement))?;
     super::warn(&report.warnings);
-    report.commands = commands(arguments, &results);
+    report.commands = commands(arguments, &results, &further)?;
     output.write(page(&report)?.as_bytes())?;
     match output.is_standard_output() {
         // Standard output carries the page already.
@@ -70,13 +73,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 /// Effects that stand in the results with their laws: candidates beyond the catalogue.
 fn own_effects(results: &[(String, Reconstruction)]) -> Result<Vec<EffectRequest>> {
     let mut all: Vec<EffectRequest> = Vec::new();
-    for active in results.iter().flat_map(|(_, result)| &result.effects) {
-        if active.definition.is_none() {
-            continue;
-        }
-        let effect = active.effect()?.clone();
-        if !all.iter().any(|known| known.effect == effect) {
-            all.push(EffectRequest { effect, body: None, fixed: Default::default() });
+    for (_, result) in results {
+        let Options::Refined(options) = result.made_with()? else { continue };
+        for EffectRequest { effect, .. } in options.effects {
+            let is_known = |known: &EffectRequest| known.effect == effect;
+            if !catalogue().contains(&effect) && !all.iter().any(is_known) {
+                all.push(EffectRequest { effect, body: None, fixed: Default::default() });
+            }
         }
     }
     Ok(all)
@@ -96,20 +99,34 @@ fn first_and_last(
     Ok(results)
 }
 
-/// What makes the report again.
-fn commands(arguments: &Arguments, results: &[(String, Reconstruction)]) -> Vec<String> {
-    let word = |path: &Path| shell_word(&path.to_string_lossy());
-    let scene = word(&arguments.scene);
-    let made = arguments.results.iter().zip(results).map(|(path, (_, result))| {
-        let preset = if result.preset == Preset::Paper { " --preset paper" } else { "" };
-        let with = result.effects.iter().map(|one| format!(" --with {}", shell_word(&one.label())));
-        let with: String = with.collect();
-        format!("smash reconstruct {scene}{preset}{with} -o {}", word(path))
-    });
-    let results: String = arguments.results.iter().map(|path| format!(" {}", word(path))).collect();
-    let report = format!("smash report {scene}{results} -o {}", word(&arguments.output));
-    made.chain([format!("smash diagnose {scene}"), format!("smash improve {scene}"), report])
-        .collect()
+/// What makes the report again, from the scene alone.
+fn commands(
+    arguments: &Arguments,
+    results: &[(String, Reconstruction)],
+    further: &[EffectRequest],
+) -> Result<Vec<String>> {
+    // Standard input has no name to type.
+    let word = |path: &Path, name: &str| match path == Path::new("-") {
+        true => name.to_string(),
+        false => shell_word(&path.to_string_lossy()),
+    };
+    let scene = word(&arguments.scene, "SCENE");
+    let files = LawFiles::of(further);
+    let mut commands = files.commands();
+    let mut paths = String::new();
+    for (path, (_, result)) in arguments.results.iter().zip(results) {
+        let path = word(path, "RESULT");
+        let made = again::reconstruction(&scene, &files.named(result.made_with()?));
+        commands.push(format!("{made} -o {path}"));
+        paths += &format!(" {path}");
+    }
+    let further: Vec<String> =
+        further.iter().map(|law| format!(" --try {}", files.word(law))).collect();
+    for ask in ["diagnose", "improve"] {
+        commands.push(format!("smash {ask} {scene}{}", further.concat()));
+    }
+    commands.push(format!("smash report {scene}{paths} -o {}", word(&arguments.output, "-")));
+    Ok(commands)
 }
 
 fn in_words(arguments: &Arguments, results: &[(String, Reconstruction)]) -> String {

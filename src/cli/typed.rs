@@ -5,15 +5,17 @@ use std::path::{Path, PathBuf};
 use smash::Result;
 use smash::effect::EffectRequest;
 use smash::files::shell_word;
+use smash::reconstruct::{Options, RefinedOptions};
 
+use super::again;
 use super::method::Method;
 
 /// Scenes and options, as they were typed.
 pub struct Typed {
     scenes: Vec<String>,
-    options: String,
-    /// Effects that the model has, and further candidates.
-    effects: Vec<(EffectRequest, String)>,
+    options: RefinedOptions,
+    /// Further candidates.
+    further: Vec<EffectRequest>,
 }
 
 impl Typed {
@@ -22,24 +24,23 @@ impl Typed {
     /// # Errors
     /// An effect isn't one, or its file is faulty.
     pub fn new(scenes: &[PathBuf], method: &Method, further: &[String]) -> Result<Typed> {
-        let effects = method.effects().iter().chain(further);
-        let effects = effects.map(|text| Ok((EffectRequest::parse(text)?, text.clone())));
+        let further = further.iter().map(|text| EffectRequest::parse(text));
         Ok(Typed {
             scenes: scenes.iter().map(|path| shell_word(&path.to_string_lossy())).collect(),
-            options: method.flags(),
-            effects: effects.collect::<Result<_>>()?,
+            options: method.refined()?,
+            further: further.collect::<Result<_>>()?,
         })
     }
 
     /// Of a command that takes a scene and nothing else.
     pub fn of_scene(scene: &Path) -> Typed {
         let scenes = vec![shell_word(&scene.to_string_lossy())];
-        Typed { scenes, options: String::new(), effects: Vec::new() }
+        Typed { scenes, options: RefinedOptions::default(), further: Vec::new() }
     }
 
     /// A line of advice with the scene's own path for SCENE, and effects as they were typed.
     pub fn completed(&self, line: &str) -> String {
-        let (one, options) = (self.scene(), &self.options);
+        let (one, options) = (self.scene(), self.flags());
         let several = match self.scenes.as_slice() {
             [one] => format!("{one} OTHER_SCENE …"),
             all => all.join(" "),
@@ -61,11 +62,14 @@ impl Typed {
     }
 
     /// The command that reconstructs the scene with `labels` beside the effects that were typed.
-    pub fn reconstruction(&self, method: &Method, labels: &[String]) -> String {
-        let typed = method.effects().iter().map(|text| shell_word(text));
-        let effects = typed.chain(labels.iter().map(|label| self.effect(label)));
-        let with: String = effects.map(|effect| format!(" --with {effect}")).collect();
-        format!("smash reconstruct {}{}{with}", self.scene(), self.options)
+    pub fn reconstruction(&self, labels: &[String]) -> String {
+        let typed = again::reconstruction(self.scene(), &Options::Refined(self.options.clone()));
+        let further = labels.iter().map(|label| format!(" --with {}", self.effect(label)));
+        format!("{typed}{}", further.collect::<String>())
+    }
+
+    fn flags(&self) -> String {
+        again::flags(&Options::Refined(self.options.clone()))
     }
 
     /// The scene; of several any.
@@ -86,16 +90,11 @@ impl Typed {
             request.effect.name == name
                 && (request.body.is_none() || request.body.as_deref() == body)
         };
-        let Some((request, text)) = self.effects.iter().find(|(request, _)| is_it(request)) else {
+        let mut known = self.options.effects.iter().chain(&self.further);
+        let Some(request) = known.find(|request| is_it(request)) else {
             return shell_word(label);
         };
-        match body.filter(|_| request.body.is_none()) {
-            None => shell_word(text),
-            Some(body) if request.fixed.is_empty() => shell_word(&format!("{text}@{body}")),
-            Some(body) => {
-                let (path, values) = text.rsplit_once(':').unwrap_or((text, ""));
-                shell_word(&format!("{path}@{body}:{values}"))
-            }
-        }
+        let body = body.map(String::from);
+        shell_word(&EffectRequest { body, ..request.clone() }.to_string())
     }
 }

@@ -1,7 +1,8 @@
 //! Whether a result can be of this scene.
 
+use super::ResultResiduals;
 use crate::scene::Scene;
-use crate::words::{listed, quoted};
+use crate::words::{listed, quoted, significant};
 use crate::{Error, Reconstruction, Result};
 
 /// Refuses a result that can't be of `scene`.
@@ -30,13 +31,63 @@ pub(super) fn check(scene: &Scene, result: &Reconstruction) -> Result<()> {
     }
 }
 
-/// Names are free text: another one is no fault, but often a mistake.
-pub(super) fn doubt(scene: &Scene, name: &str, result: &Reconstruction) -> Option<String> {
-    (result.scene != scene.name()).then(|| {
-        format!(
-            "{name} was made from the scene {}, this is {}: are these its poses?",
+/// The fit's own error and that on the same poses differ by less, in any version.
+const SAME_SHARE: f64 = 0.01;
+const SAME_M: f64 = 1e-6;
+
+/// In which words `result`, which leaves `residuals` of the poses of `scene`, was made from other
+/// content; `None` where it wasn't. Results of older versions tell it by their error alone.
+pub(crate) fn other_content(
+    scene: &Scene,
+    result: &Reconstruction,
+    residuals: &ResultResiduals,
+) -> Option<String> {
+    let own_m = result.fit.position_rmse;
+    let is_other = match (&result.scene_fingerprint, residuals.position_rmse) {
+        (Some(made_from), _) => *made_from != scene.fingerprint(),
+        (None, Some(here_m)) => (here_m - own_m).abs() > SAME_SHARE * own_m + SAME_M,
+        (None, None) => false,
+    };
+    if !is_other {
+        return None;
+    }
+    let mut words = match result.scene == scene.name() {
+        true => "was made from another version of this scene".to_string(),
+        false => format!(
+            "was made from another scene, {}; this is {}",
             quoted(&result.scene),
             quoted(scene.name())
-        )
-    })
+        ),
+    };
+    words += &format!(": {}", differences(scene, result));
+    if let Some(here_m) = residuals.position_rmse {
+        let [own, here] = [own_m, here_m].map(|length_m| significant(1e3 * length_m, 3));
+        words += &format!("; it misses its own poses by {own} mm, and these by {here} mm");
+    }
+    Some(words)
+}
+
+/// What is another one in `scene` than in that of `result`.
+fn differences(scene: &Scene, result: &Reconstruction) -> String {
+    let here = scene.setting();
+    let Some(there) = &result.setting else { return "other poses".to_string() };
+    let mut other: Vec<String> = Vec::new();
+    let mut told = |name: &str, is_other: bool| {
+        if is_other {
+            other.push(name.to_string());
+        }
+    };
+    told("`up`", here.up != there.up);
+    told("`gravity`", here.gravity != there.gravity);
+    told("`fps`", here.fps != there.fps);
+    told("`camera`", here.camera != there.camera);
+    told("the plane", here.plane != there.plane);
+    for (here, there) in here.bodies.iter().zip(&there.bodies) {
+        told(&format!("the shape of {}", here.name), here.shape != there.shape);
+        told(&format!("the times of {}", here.name), here.seen != there.seen);
+    }
+    match other.is_empty() {
+        true => "other poses, or another noise".to_string(),
+        false => format!("another value of {}", other.join(", ")),
+    }
 }

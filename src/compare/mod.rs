@@ -30,6 +30,7 @@ pub use comparison::{
     LargestMiss, Quantity, ResultResiduals, Segment,
 };
 pub use findings::findings;
+pub(crate) use identity::other_content;
 pub use ledger::{Ledger, LedgerEntry, LedgerLine};
 pub use plot::{Plot, plots};
 pub use randomness::{Pattern, RandomnessTest, TestName};
@@ -55,25 +56,26 @@ use crate::{Reconstruction, Result, Scene};
 /// # Ok::<(), smash::Error>(())
 /// ```
 pub fn compare(scene: &Scene, results: &[(String, Reconstruction)]) -> Result<Comparison> {
-    let mut warnings = Vec::new();
     for (name, result) in results {
         identity::check(scene, result).map_err(|error| error.in_file(name))?;
-        warnings.extend(identity::doubt(scene, name, result));
     }
     let noise = noise(scene, results);
-    let told = results
+    let told: Vec<ResultResiduals> = results
         .iter()
         .map(|(name, result)| {
             residuals::of(scene, name, result, noise.as_ref()).map_err(|error| error.in_file(name))
         })
         .collect::<Result<_>>()?;
+    let doubts = results.iter().zip(&told).filter_map(|((name, result), residuals)| {
+        other_content(scene, result, residuals).map(|words| format!("{name} {words}"))
+    });
     Ok(Comparison {
         schema: COMPARISON_SCHEMA.to_string(),
         scene: scene.name().to_string(),
         noise,
+        warnings: doubts.collect(),
         results: told,
         quantities: side_by_side::quantities(scene, results),
-        warnings,
     })
 }
 

@@ -39,13 +39,13 @@ pub use hook::Hook;
 pub use names::INPUTS;
 pub use program::{Instruction, Operation, Program};
 pub use request::EffectRequest;
-pub(crate) use request::name_of;
+pub(crate) use request::{RequestFile, known, name_of};
 pub use unit::{Dimension, Unit};
 
 /// A law with its parameters, and what people should know of it.
 ///
 /// As JSON it has the form of its file, and can be read from it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Effect {
     /// One word.
     pub name: String,
@@ -66,6 +66,26 @@ pub struct Effect {
     pub sources: BTreeMap<Hook, String>,
     /// For people.
     pub help: Help,
+    /// The file that it was read from, as it was named; `None` for the catalogue's.
+    #[serde(skip)]
+    pub file: Option<String>,
+}
+
+/// Wherever they were read from.
+impl PartialEq for Effect {
+    fn eq(&self, other: &Effect) -> bool {
+        let Effect { name, title, scope, needs, parameters, laws, sources, help, file: _ } = self;
+        (name, title, scope, needs) == (&other.name, &other.title, &other.scope, &other.needs)
+            && (parameters, laws) == (&other.parameters, &other.laws)
+            && (sources, help) == (&other.sources, &other.help)
+    }
+}
+
+impl Effect {
+    /// The text of its file: TOML.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("plain numbers and strings have a form in TOML")
+    }
 }
 
 /// An unknown number of a law, or an unknown vector.

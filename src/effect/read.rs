@@ -30,7 +30,9 @@ impl Effect {
     pub fn read(path: impl AsRef<Path>) -> Result<Effect> {
         let path = path.as_ref();
         let text = read_text_up_to(LARGEST_FILE_BYTES, path, "an effect is a page of text")?;
-        Effect::parse(&text, &display_name(path, "standard input"))
+        let name = display_name(path, "standard input");
+        let effect = Effect::parse(&text, &name)?;
+        Ok(Effect { file: (path != Path::new("-")).then_some(name), ..effect })
     }
 
     /// Reads and checks an effect from `text`; `origin` is only for messages.
@@ -90,6 +92,7 @@ impl Effect {
             laws,
             sources: sources.into_iter().collect(),
             help: file.help,
+            file: None,
         })
     }
 }

@@ -3,14 +3,19 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use std::fmt;
 
-use super::{Effect, Parameter, find};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::file::EffectFile;
+use super::{Effect, Parameter, catalogue, find};
 use crate::words::{did_you_mean, limit, quoted};
 use crate::{Error, ErrorKind, Result};
 
 /// An effect, perhaps on one body alone, perhaps with parameters that are known.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(into = "RequestFile", try_from = "RequestFile")]
 pub struct EffectRequest {
     /// What is asked for.
     pub effect: Effect,
@@ -18,6 +23,81 @@ pub struct EffectRequest {
     pub body: Option<String>,
     /// The parameters that aren't unknown, in their units: 1 or 3 numbers.
     pub fixed: BTreeMap<String, Vec<f64>>,
+}
+
+/// An effect, as it was asked for.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "EffectRequest")]
+pub(crate) struct RequestFile {
+    /// Its name in the catalogue, or in the user's file.
+    name: String,
+    /// The body that it acts on; null for all that it can act on.
+    #[serde(default)]
+    body: Option<String>,
+    /// The parameters that were given, in their units: 1 or 3 numbers each.
+    #[serde(default)]
+    fixed: BTreeMap<String, Vec<f64>>,
+    /// The user's file, as it was named; missing where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
+    /// What it is, in the form of its file; missing where it is the catalogue's effect of this name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<EffectFile>")]
+    definition: Option<Effect>,
+}
+
+impl From<EffectRequest> for RequestFile {
+    fn from(EffectRequest { effect, body, fixed }: EffectRequest) -> RequestFile {
+        let is_known = catalogue().contains(&effect);
+        RequestFile {
+            name: effect.name.clone(),
+            body,
+            fixed,
+            file: effect.file.clone(),
+            definition: (!is_known).then_some(effect),
+        }
+    }
+}
+
+impl TryFrom<RequestFile> for EffectRequest {
+    type Error = String;
+
+    fn try_from(asked: RequestFile) -> std::result::Result<EffectRequest, String> {
+        // The reader takes what follows a semicolon for the mend.
+        let in_words = |error: Error| error.to_string().replace("\n  hint: ", "; ");
+        let effect = match asked.definition {
+            Some(effect) => effect,
+            None => known(&asked.name).map_err(in_words)?.clone(),
+        };
+        for (name, numbers) in &asked.fixed {
+            let parameter = parameter(&effect, name).map_err(in_words)?;
+            check_value(&effect, parameter, numbers).map_err(in_words)?;
+        }
+        let effect = Effect { file: asked.file, ..effect };
+        Ok(EffectRequest { effect, body: asked.body, fixed: asked.fixed })
+    }
+}
+
+/// As [`EffectRequest::parse`] reads it: `NAME[@BODY][:parameter=value,…]`, of a user's own effect
+/// with the path of its file, if it was read from one.
+impl fmt::Display for EffectRequest {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.effect.file.as_deref().unwrap_or(&self.effect.name))?;
+        if let Some(body) = &self.body {
+            write!(out, "@{body}")?;
+        }
+        for (index, (name, numbers)) in self.fixed.iter().enumerate() {
+            out.write_str(if index == 0 { ":" } else { "," })?;
+            match numbers.as_slice() {
+                [number] => write!(out, "{name}={}", limit(*number))?,
+                all => {
+                    let all: Vec<String> = all.iter().map(|number| limit(*number)).collect();
+                    write!(out, "{name}=[{}]", all.join(","))?;
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 impl EffectRequest {
@@ -94,26 +174,56 @@ fn settings(text: &str) -> Vec<&str> {
 
 /// A parameter's name, and its value as 1 or 3 numbers.
 fn known_value(effect: &Effect, name: &str, value: &str) -> Result<(String, Vec<f64>)> {
-    let Some(parameter) = effect.parameters.iter().find(|known| known.name == name) else {
+    let parameter = parameter(effect, name)?;
+    let numbers = numbers(value, parameter).ok_or_else(|| no_value(effect, parameter, value))?;
+    check_value(effect, parameter, &numbers)?;
+    Ok((name.to_owned(), numbers))
+}
+
+/// The effect of the catalogue with this name.
+///
+/// # Errors
+/// There is none.
+pub(crate) fn known(name: &str) -> Result<&'static Effect> {
+    catalogue().iter().find(|effect| effect.name == name).ok_or_else(|| {
+        let names: Vec<&str> = catalogue().iter().map(|effect| effect.name.as_str()).collect();
+        let problem = format!("{} is no effect of the catalogue", quoted(name));
+        Error::invalid("name", problem).mend(format!(
+            "{}; an effect of your own stands in `definition`",
+            did_you_mean(name, &names)
+        ))
+    })
+}
+
+fn parameter<'a>(effect: &'a Effect, name: &str) -> Result<&'a Parameter> {
+    effect.parameters.iter().find(|known| known.name == name).ok_or_else(|| {
         let names: Vec<&str> = effect.parameters.iter().map(|known| known.name.as_str()).collect();
         let problem = format!("`{}` has no parameter {}", effect.name, quoted(name));
-        return Err(Error::new(ErrorKind::Invalid, problem).mend(did_you_mean(name, &names)));
-    };
-    let place = format!("{}:{name}", effect.name);
-    let numbers = numbers(value, parameter).ok_or_else(|| {
-        let form = if parameter.null.len() == 3 { "[x,y,z] without spaces" } else { "one number" };
-        Error::invalid(&place, format!("{} is no value of it", quoted(value)))
-            .mend(format!("write {form}, in {}", parameter.unit))
-    })?;
+        Error::new(ErrorKind::Invalid, problem).mend(did_you_mean(name, &names))
+    })
+}
+
+fn check_value(effect: &Effect, parameter: &Parameter, numbers: &[f64]) -> Result<()> {
+    if numbers.len() != parameter.null.len() {
+        return Err(no_value(effect, parameter, &format!("{numbers:?}")));
+    }
     let [low, high] = parameter.bounds;
     match numbers.iter().find(|number| !(low..=high).contains(*number)) {
         Some(outside) => {
             let problem = format!("{} is outside its bounds", limit(*outside));
             let mend = format!("{} to {} {}", limit(low), limit(high), parameter.unit);
+            let place = format!("{}:{}", effect.name, parameter.name);
             Err(Error::invalid(place, problem).mend(mend))
         }
-        None => Ok((name.to_owned(), numbers)),
+        None => Ok(()),
     }
+}
+
+fn no_value(effect: &Effect, parameter: &Parameter, value: &str) -> Error {
+    let form = if parameter.null.len() == 3 { "[x,y,z] without spaces" } else { "one number" };
+    let place = format!("{}:{}", effect.name, parameter.name);
+    Error::invalid(place, format!("{} is no value of it", quoted(value)))
+        .mend(format!("write {form}, in {}", parameter.unit))
 }
 
 fn numbers(text: &str, parameter: &Parameter) -> Option<Vec<f64>> {

@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::Result;
 use crate::effect::file::EffectFile;
-use crate::effect::{Effect, catalogue};
-use crate::words::{did_you_mean, quoted};
-use crate::{Error, Result};
+use crate::effect::{Effect, known};
+
+/// Why a parameter that isn't unknown has no deviation.
+pub(crate) const GIVEN: &str = "it was given";
 
 /// An effect beyond the base model, with its parameters. The `paper` preset has none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -39,14 +41,7 @@ impl ActiveEffect {
     /// # Errors
     /// It has no definition, and the catalogue has no effect of this name.
     pub fn effect(&self) -> Result<&Effect> {
-        let known = || catalogue().iter().find(|effect| effect.name == self.name);
-        self.definition.as_ref().or_else(known).ok_or_else(|| {
-            let names: Vec<&str> = catalogue().iter().map(|effect| effect.name.as_str()).collect();
-            let problem = format!("{} is no effect of the catalogue", quoted(&self.name));
-            let mend = did_you_mean(&self.name, &names);
-            Error::invalid("name", problem)
-                .mend(format!("{mend}; an effect of your own stands in `definition`"))
-        })
+        self.definition.as_ref().map_or_else(|| known(&self.name), Ok)
     }
 }
 

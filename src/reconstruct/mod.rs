@@ -6,6 +6,7 @@
 pub(crate) mod active_effect;
 mod collision;
 mod flags;
+mod made_with;
 mod options;
 mod paper;
 mod progress;

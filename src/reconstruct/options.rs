@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effect::EffectRequest;
+use crate::effect::{EffectRequest, RequestFile};
 
 /// How to solve.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "preset", rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Options {
@@ -17,7 +17,7 @@ pub enum Options {
 }
 
 /// Choices of the `refined` preset.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RefinedOptions {
     /// One σ of the angle about each horizontal axis by which the scene's `up` may be wrong, in rad;
     /// above 0.
@@ -27,7 +27,8 @@ pub struct RefinedOptions {
     /// How the 95 % intervals are found.
     pub intervals: Intervals,
     /// Effects beyond the base model, in the order in which they are added.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<RequestFile>")]
     pub effects: Vec<EffectRequest>,
 }
 
@@ -69,7 +70,7 @@ impl Default for RefinedOptions {
 }
 
 /// Choices of the `paper` preset.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct PaperOptions {
     /// Which segment of the search is kept.
     pub segment_by: SegmentCriterion,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ActiveEffect, Flag, Intervals, SegmentCriterion};
+use super::{ActiveEffect, Flag, Intervals, Options, SegmentCriterion};
 use crate::scene::Setting;
 
 /// The value of a result file's field `schema`.
@@ -20,6 +20,14 @@ pub struct Reconstruction {
     pub scene: String,
     /// The method.
     pub preset: Preset,
+    /// What it was made with: with the same scene, options and version of smash the same result comes
+    /// again. Missing in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub options: Option<Options>,
+    /// The SHA-256 of all that the scene says of the collision (not of its text, nor of the scene's
+    /// name and source): of which poses the result is. Missing in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene_fingerprint: Option<String>,
     /// What chose the segment.
     pub segment_by: SegmentCriterion,
     /// m_b / m_a; null without a second dynamic body.

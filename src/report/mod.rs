@@ -17,11 +17,11 @@ pub use document::{
 };
 pub use page::{has_page, page, require_page};
 
-use crate::compare::{compare, series};
+use crate::compare::{compare, other_content, series};
 use crate::diagnose::Diagnosis;
 use crate::improve::Improvement;
 use crate::motion::motion;
-use crate::{Reconstruction, Result, Scene};
+use crate::{Error, ErrorKind, Reconstruction, Result, Scene};
 
 /// Samples a second of motions: smooth to the eye in slow motion.
 const MOTION_RATE_HZ: f64 = 120.0;
@@ -30,7 +30,7 @@ const MOTION_RATE_HZ: f64 = 120.0;
 /// and `improvement` are those of the base model.
 ///
 /// # Errors
-/// As [`crate::compare()`]: a result can't be the scene's.
+/// As [`crate::compare()`], or a result was made from other content than that of `scene`.
 ///
 /// # Example
 /// ```no_run
@@ -41,6 +41,26 @@ const MOTION_RATE_HZ: f64 = 120.0;
 /// # Ok::<(), smash::Error>(())
 /// ```
 pub fn report(
+    scene: &Scene,
+    results: &[(String, Reconstruction)],
+    diagnosis: Option<Diagnosis>,
+    improvement: Option<Improvement>,
+) -> Result<Report> {
+    let report = unchecked(scene, results, diagnosis, improvement)?;
+    for ((name, result), model) in results.iter().zip(&report.models) {
+        // Its own numbers would stand beside others of the same name.
+        if let Some(words) = other_content(scene, result, &model.residuals) {
+            return Err(Error::new(ErrorKind::Invalid, words).in_file(name).mend(
+                "reconstruct this scene again; `smash compare` tells how a result meets the poses of \
+                 an edited scene",
+            ));
+        }
+    }
+    Ok(report)
+}
+
+/// The same, also where results are made from a part of the poses, or from changed ones.
+pub(crate) fn unchecked(
     scene: &Scene,
     results: &[(String, Reconstruction)],
     diagnosis: Option<Diagnosis>,

@@ -7,6 +7,7 @@ pub(crate) mod body;
 pub(crate) mod bounds;
 mod check;
 pub(crate) mod file;
+mod fingerprint;
 mod gaps;
 mod order;
 mod read;

@@ -101,12 +101,7 @@ impl Model {
 
     /// The effects as a fit is asked for them.
     pub(super) fn requests(&self, scene: &Scene) -> Vec<EffectRequest> {
-        let request = |instance: &Arc<Instance>| EffectRequest {
-            effect: instance.effect.clone(),
-            body: instance.body.map(|body| scene.bodies()[body].name.clone()),
-            fixed: instance.fixed.clone(),
-        };
-        self.effects.iter().map(request).collect()
+        self.effects.iter().map(|instance| instance.request(scene)).collect()
     }
 
     /// The effect of this name that it has.

@@ -440,16 +440,22 @@ fn the_command_names_the_file_at_fault() {
     assert_eq!(run(folder.path(), &["scene.json"]).status.code(), Some(2));
 }
 
-/// Names are free text: another scene's is worth a word, no more.
+/// Names are free text: another one alone is no matter; beside other poses it says which scene's they
+/// are.
 #[test]
-fn another_scenes_name_is_a_warning() {
+fn another_scene_is_a_warning() {
     let folder = folder();
     let text = fs::read_to_string(folder.path().join("scene.json")).unwrap();
     let renamed =
         edited(serde_json::from_str(&text).unwrap(), |scene| scene["name"] = json!("new"));
-    fs::write(folder.path().join("scene.json"), renamed.to_string()).unwrap();
-    let output = run(folder.path(), &["scene.json", "refined.json"]);
-    assert_eq!(output.status.code(), Some(0));
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert!(message.starts_with("warning: refined.json was made from the scene"), "{message}");
+    let other = edited(renamed.clone(), |scene| scene["gravity"] = json!(9.8));
+    for (scene, told) in
+        [(renamed, ""), (other, "warning: refined.json was made from another scene")]
+    {
+        fs::write(folder.path().join("scene.json"), scene.to_string()).unwrap();
+        let output = run(folder.path(), &["scene.json", "refined.json"]);
+        assert_eq!(output.status.code(), Some(0));
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(message.starts_with(told) && message.is_empty() == told.is_empty(), "{message}");
+    }
 }

@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::super::PaperOptions;
 use super::super::collision::{NO_IMPULSE, States, body_result, contact, restitution};
 use super::super::flags::{Doubts, flags};
 use super::super::result::{Estimate, Preset, RESULT_SCHEMA, Reconstruction};
 use super::super::scatter::position_scatter_m;
+use super::super::{Options, PaperOptions};
 use super::fit::fit;
 use super::internal::InternalScene;
 use super::phases::Solved;
@@ -58,6 +58,8 @@ pub(super) fn reconstruction(
         schema: RESULT_SCHEMA.to_string(),
         scene: scene.name().to_string(),
         preset: Preset::Paper,
+        options: Some(Options::Paper(*options)),
+        scene_fingerprint: Some(scene.fingerprint()),
         segment_by: options.segment_by,
         flags: flags(scene, &fit, &doubts),
         mass_ratio,

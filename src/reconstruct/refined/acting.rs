@@ -63,6 +63,15 @@ impl Instance {
         Ok((Instance { effect: effect.clone(), body, fixed: BTreeMap::new() }, values))
     }
 
+    /// What asks for it in `scene`.
+    pub(crate) fn request(&self, scene: &Scene) -> EffectRequest {
+        EffectRequest {
+            effect: self.effect.clone(),
+            body: self.body.map(|body| scene.bodies()[body].name.clone()),
+            fixed: self.fixed.clone(),
+        }
+    }
+
     /// `NAME@BODY`, or `NAME` where it acts on all.
     pub(crate) fn label(&self, scene: &Scene) -> String {
         match self.body {

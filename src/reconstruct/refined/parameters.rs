@@ -6,10 +6,9 @@ use super::uncertainty::Deviations;
 use crate::Scene;
 use crate::bridge::refined::ffi::ParameterRule;
 use crate::effect::{Parameter, catalogue};
-use crate::reconstruct::active_effect::scalar_names;
+use crate::reconstruct::active_effect::{GIVEN, scalar_names};
 use crate::reconstruct::{ActiveEffect, Number, ParameterEstimate};
 
-const GIVEN: &str = "it was given";
 const SCANNED: &str = "it is one of the annotated poses";
 const AT_BOUND: &str = "it ends at its bound";
 const NO_DATA: &str = "the poses don't determine it";

@@ -17,7 +17,7 @@ use crate::reconstruct::result::{
     BodyResult, Estimate, Fit, NoiseReport, Outlier, Preset, RESULT_SCHEMA, Reconstruction,
 };
 use crate::reconstruct::scatter::position_scatter_m;
-use crate::reconstruct::{Intervals, Loss, SegmentCriterion};
+use crate::reconstruct::{Intervals, Loss, Options, RefinedOptions, SegmentCriterion};
 use crate::{Result, Scene};
 
 const NO_ORIENTATION: &str = "no orientation was fitted";
@@ -83,6 +83,8 @@ pub(crate) fn reconstruction(
         schema: RESULT_SCHEMA.to_string(),
         scene: scene.name().to_string(),
         preset: Preset::Refined,
+        options: Some(Options::Refined(options(scene, fitted, intervals))),
+        scene_fingerprint: Some(scene.fingerprint()),
         segment_by: SegmentCriterion::Cost,
         flags: flags(scene, &judged, &doubts),
         mass_ratio,
@@ -108,6 +110,16 @@ pub(crate) fn reconstruction(
         warnings: scene.warnings().iter().map(|warning| warning.text.clone()).collect(),
         setting: Some(scene.setting()),
     })
+}
+
+/// What leads to `fitted` from nothing but the scene.
+fn options(scene: &Scene, fitted: &Fitted, intervals: Intervals) -> RefinedOptions {
+    RefinedOptions {
+        tilt_std_rad: fitted.refined.tilt_std_rad,
+        loss: fitted.loss,
+        intervals,
+        effects: fitted.acting.iter().map(|acting| acting.instance.request(scene)).collect(),
+    }
 }
 
 /// The spins tell the contact point to within a part of the smallest body.

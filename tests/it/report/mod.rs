@@ -1,5 +1,8 @@
 //! `smash report`: one page with its data in it, whole or not at all.
 
+mod again;
+mod other_content;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
