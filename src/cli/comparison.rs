@@ -9,7 +9,7 @@ use smash::compare::{
 };
 
 use super::ledger;
-use super::table::{aligned, decimals, degrees, lines, millimetres};
+use super::table::{aligned, decimals, degrees, digits_of, lines, millimetres};
 
 /// A part by which two numbers must differ for people to wonder.
 const VISIBLE_SHARE: f64 = 0.05;
@@ -91,10 +91,11 @@ fn side_by_side(comparison: &Comparison, names: &[String]) -> Vec<Vec<String>> {
         header.extend([name.clone(), "difference".into(), String::new()]);
     }
     let rows = comparison.quantities.iter().map(|quantity| {
-        let mut row = vec![label(quantity), value(&quantity.entries[0])];
+        let digits = digits(quantity);
+        let mut row = vec![label(quantity), value(&quantity.entries[0], digits)];
         for (entry, difference) in quantity.entries[1..].iter().zip(&quantity.differences) {
             let far = difference.in_sigma.map_or(String::new(), sigmas);
-            row.extend([value(entry), size(quantity, difference), far]);
+            row.extend([value(entry, digits), size(quantity, difference, digits), far]);
         }
         row
     });
@@ -110,30 +111,56 @@ fn label(quantity: &Quantity) -> String {
     };
     match quantity.unit.as_str() {
         "" => words,
-        // The quaternion has no unit; its difference shows its own.
-        "rad" => words,
         unit => format!("{words} ({unit})"),
     }
 }
 
-fn value(entry: &Entry) -> String {
+/// Digits behind the point, the same for all entries: two of the least deviation.
+fn digits(quantity: &Quantity) -> usize {
+    let entries = quantity.entries.iter();
+    let stds = entries.flat_map(|entry| &entry.std).flatten().filter(|std| **std > 0.0);
+    match stds.copied().min_by(f64::total_cmp) {
+        Some(least) => digits_of(least).min(6),
+        None if is_scalar(quantity) => 4,
+        None => 3,
+    }
+}
+
+fn is_scalar(quantity: &Quantity) -> bool {
+    quantity.entries.iter().filter_map(|entry| entry.value.as_ref()).all(|value| value.len() == 1)
+}
+
+fn value(entry: &Entry, digits: usize) -> String {
     match (entry.value.as_deref(), entry.std.as_slice()) {
         (None, _) => "not determined".into(),
-        (Some(&[value]), &[Some(std)]) => format!("{} ± {std:.1e}", decimals(value, 4)),
-        (Some(&[value]), _) => decimals(value, 4),
+        (Some(&[value]), &[Some(std)]) => {
+            format!("{} ± {}", decimals(value, digits), decimals(std, digits))
+        }
+        (Some(&[value]), _) => decimals(value, digits),
         (Some(numbers), _) => {
-            let cells: Vec<String> =
-                numbers.iter().map(|&number| format!("{:>7}", decimals(number, 3))).collect();
+            let width = digits + 4;
+            let cells: Vec<String> = numbers
+                .iter()
+                .map(|&number| format!("{:>width$}", decimals(number, digits)))
+                .collect();
             cells.join(" ")
         }
     }
 }
 
-fn size(quantity: &Quantity, difference: &Difference) -> String {
+fn size(quantity: &Quantity, difference: &Difference, digits: usize) -> String {
+    /// A degree is about a fiftieth of a radian.
+    const FEWER_IN_DEGREES: usize = 2;
     let text = match (difference.difference.as_deref(), difference.size) {
-        (Some(&[signed]), _) => decimals(signed, 4),
-        (_, Some(angle)) if quantity.unit == "rad" => degrees(angle),
-        (_, Some(size)) => decimals(size, 3),
+        (Some(&[signed]), _) => {
+            let sign = if signed > 0.0 { "+" } else { "" };
+            format!("{sign}{}", decimals(signed, digits))
+        }
+        (_, Some(angle)) if quantity.difference_unit == "rad" => {
+            let digits = digits.saturating_sub(FEWER_IN_DEGREES).max(2);
+            format!("{}°", decimals(angle.to_degrees(), digits))
+        }
+        (_, Some(size)) => decimals(size, digits),
         _ => String::new(),
     };
     format!("{text:>10}")

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, ValueEnum};
+use clap::{Args, ValueEnum};
 use serde_json::json;
 use smash::files::{Output, display_name, print_bytes};
 use smash::{Reconstruction, Result, export};
@@ -22,7 +22,7 @@ pub struct Arguments {
     #[arg(long)]
     format: Option<Format>,
     /// Frames a second; by default those of the scene, or 60
-    #[arg(long, value_name = "NUMBER", value_parser = frames_a_second)]
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true, value_parser = frames_a_second)]
     fps: Option<f64>,
     /// Print what was written as JSON instead of words
     #[arg(long)]
@@ -40,9 +40,12 @@ enum Format {
 /// Reads, flies, writes, tells.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let format = arguments.format.or(by_ending(&arguments.output)).unwrap_or_else(|| {
-        let problem = "the name of the output doesn't tell what to write: end it in `.glb` or `.csv`, \
-                       or add `--format gltf` or `--format csv`";
-        super::Arguments::command().error(ErrorKind::MissingRequiredArgument, problem).exit()
+        let file = display_name(&arguments.output, "standard output");
+        let problem = format!(
+            "{file}: its name doesn't tell what to write: end it in `.glb` or `.csv`, or add `--format \
+             gltf` or `--format csv`"
+        );
+        super::usage_error(ErrorKind::MissingRequiredArgument, &problem)
     });
     let output = Output::check(&arguments.output, &[&arguments.result])?;
     super::refuse_json_beside(&output, arguments.json)?;
@@ -118,6 +121,6 @@ fn unknown(result: &Reconstruction) -> Vec<String> {
 fn frames_a_second(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(fps) if (1e-3..=1e7).contains(&fps) => Ok(fps),
-        _ => Err("give the frames a second, such as 60".to_string()),
+        _ => Err("give the frames a second, above 0, such as 60".to_string()),
     }
 }

@@ -2,7 +2,7 @@
 
 use smash::compare::{Ledger, LedgerEntry, LedgerLine};
 
-use super::table::{aligned, decimals};
+use super::table::{aligned, decimals, digits_of};
 
 /// What people look for, in this order; the rest stands in the file.
 const SHOWN: [(&str, &str); 5] = [
@@ -28,12 +28,24 @@ pub fn in_words(ledger: &Ledger) -> String {
     }
     let title = "At the collision, per kg of the reference body, in SI units; angular momentum and height \
                  are from\nthe point of contact";
-    format!("\n{title}\n{}", aligned(&rows))
+    // A lone body's momentum changes by whatever it hit.
+    let is_alone = ledger.lines.iter().all(|line| line.body.is_some());
+    let note = match is_alone {
+        true => {
+            "The change of momentum and angular momentum went into what it hit: the plane, or a body \
+                 that isn't in\nthe scene\n"
+        }
+        false => "",
+    };
+    format!("\n{title}\n{}{note}", aligned(&rows))
 }
 
 fn row(line: &LedgerLine, label: &str) -> Vec<String> {
     let change = match (line.change.value.as_deref(), line.change.std.as_slice()) {
-        (Some(&[value]), &[Some(std)]) => format!("{} ± {std:.1e}", number(value)),
+        (Some(&[value]), &[Some(std)]) => {
+            let digits = digits_of(std);
+            format!("{:>7} ± {}", decimals(value, digits), decimals(std, digits))
+        }
         _ => cell(&line.change),
     };
     let body = line.body.clone().unwrap_or("all".into());

@@ -1,7 +1,7 @@
 //! The options that choose the method, the same for every command that reconstructs.
 
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, ValueEnum};
+use clap::{Args, ValueEnum};
 use smash::effect::EffectRequest;
 use smash::reconstruct::{
     Intervals, Loss, Options, PaperOptions, RefinedOptions, SegmentCriterion,
@@ -17,7 +17,7 @@ pub struct Method {
     #[arg(long, value_name = "CRITERION")]
     segment_by: Option<SegmentBy>,
     /// How sure the scene's `up` is: one standard deviation in degrees (refined method)
-    #[arg(long, value_name = "DEGREES", value_parser = positive)]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = positive)]
     tilt_std: Option<f64>,
     /// Let a few wrong annotations hardly count (refined method)
     #[arg(long)]
@@ -123,5 +123,5 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 fn usage_error(problem: &str) -> ! {
-    super::Arguments::command().error(ErrorKind::ArgumentConflict, problem).exit()
+    super::usage_error(ErrorKind::ArgumentConflict, problem)
 }

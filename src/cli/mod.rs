@@ -29,7 +29,7 @@ mod typed;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use smash::files::Output;
 use smash::{Error, ErrorKind};
 
@@ -89,6 +89,18 @@ pub fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Ends the program with a usage error of the command that was typed.
+fn usage_error(kind: clap::error::ErrorKind, problem: &str) -> ! {
+    let mut program = Arguments::command();
+    program.build();
+    let typed = std::env::args().nth(1).unwrap_or_default();
+    let command = match program.find_subcommand(&typed) {
+        Some(command) => &mut command.clone(),
+        None => &mut program,
+    };
+    command.error(kind, problem).exit()
 }
 
 /// Tells of what looks odd, before the work starts.

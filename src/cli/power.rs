@@ -26,13 +26,13 @@ pub struct Arguments {
     #[arg(long, value_name = "EFFECT")]
     effect: String,
     /// How far off its null the parameter is, in its unit, in place of the given or typical size
-    #[arg(long, value_name = "SIZE", value_parser = above_zero)]
+    #[arg(long, value_name = "SIZE", allow_negative_numbers = true, value_parser = above_zero)]
     size: Option<f64>,
     /// One σ of annotated positions in m, in place of the plan's
-    #[arg(long, value_name = "M", value_parser = above_zero, requires = "noise_orientation")]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = above_zero, requires = "noise_orientation")]
     noise_position: Option<f64>,
     /// One σ of annotated orientations in rad, in place of the plan's
-    #[arg(long, value_name = "RAD", value_parser = above_zero, requires = "noise_position")]
+    #[arg(long, value_name = "RAD", allow_negative_numbers = true, value_parser = above_zero, requires = "noise_position")]
     noise_orientation: Option<f64>,
     /// Where to write the answer (smash.power/1), or - for standard output
     #[arg(short, long, value_name = "FILE")]

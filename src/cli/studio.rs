@@ -1,14 +1,14 @@
 //! `smash studio`: the page, alive.
 
 use std::io::IsTerminal;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
-use smash::Result;
-use smash::files::print_bytes;
+use smash::files::{display_name, print_bytes};
 use smash::report::require_page;
 use smash::studio::{Server, Studio};
+use smash::{Error, ErrorKind, Result};
 
 use super::browser;
 
@@ -41,7 +41,8 @@ pub struct Arguments {
 /// The scene or the session can't be opened, the port is taken, or this build has no page.
 pub fn run(arguments: &Arguments) -> Result<()> {
     require_page()?;
-    let studio = Studio::open(&arguments.scene, arguments.session.as_deref())?;
+    let studio = Studio::open(&arguments.scene, arguments.session.as_deref())
+        .map_err(|error| of_session(error, &arguments.scene))?;
     super::warn(studio.scene().warnings());
     let server = Server::bind(arguments.port, &studio)?;
     let address = server.address();
@@ -56,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     print_bytes(told.as_bytes())?;
     if !arguments.no_open && std::io::stdout().is_terminal() {
         // Where there is no browser, the address stands on the terminal.
-        let _ = browser::open(&address);
+        browser::open(&address);
     }
     server.run(studio, async {
         // Where the signal can't be heard, killing ends it as well: all is saved.
@@ -64,4 +65,16 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             std::future::pending::<()>().await;
         }
     })
+}
+
+/// An error that is about the session's file, with the way on without it.
+fn of_session(error: Error, scene: &Path) -> Error {
+    let is_scenes = error.file() == Some(display_name(scene, "standard input").as_str());
+    let is_broken = matches!(error.kind(), ErrorKind::Read | ErrorKind::Parse | ErrorKind::Invalid);
+    let hint = error.hint().unwrap_or_default().to_string();
+    if is_scenes || !is_broken || hint.contains("--session") {
+        return error;
+    }
+    let way_on = "move it away, or give `--session OTHER`, to start anew";
+    error.mend(if hint.is_empty() { way_on.to_string() } else { format!("{hint}; or {way_on}") })
 }

@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use smash::files::Output;
 use smash::reconstruct::{
-    ActiveEffect, Alternative, BodyResult, Estimate, NoiseReport, Outlier, ParameterEstimate,
+    ActiveEffect, Alternative, BodyResult, Estimate, Fit, NoiseReport, Outlier, ParameterEstimate,
     Preset, Reconstruction, SegmentCriterion,
 };
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::table::{decimals, digits_of};
 
@@ -63,7 +64,7 @@ fn write_summary(
     write_alternatives(out, &result.alternatives)?;
     write_outliers(out, &result.outliers)?;
     if result.flags.is_empty() {
-        writeln!(out, "\nNo flags: the fit shows none of the known signs of failure.")?;
+        writeln!(out, "\n{}", no_flags(&result.fit))?;
     }
     if output.is_none() && next.is_empty() {
         return Ok(());
@@ -76,6 +77,21 @@ fn write_summary(
         writeln!(out, "  {step}")?;
     }
     Ok(())
+}
+
+/// A flag takes residuals of twice the noise; what is beyond chance is worth a word before.
+fn no_flags(fit: &Fit) -> String {
+    /// So seldom by noise alone.
+    const CHANCE: f64 = 1e-3;
+    let by_chance = fit.chi2.zip(ChiSquared::new(fit.dof as f64).ok());
+    match (by_chance, fit.reduced_chi2) {
+        (Some((chi2, law)), Some(reduced)) if law.sf(chi2) < CHANCE => format!(
+            "No flags; but the residuals are {:.2} times as large as the stated noise, which is beyond \
+             chance.",
+            reduced.sqrt()
+        ),
+        _ => "No flags: the fit shows none of the known signs of failure.".to_string(),
+    }
 }
 
 fn method(result: &Reconstruction) -> &'static str {

@@ -137,8 +137,12 @@ pub struct Quantity {
     /// Such as `mass_ratio`, `impulse` or, after a body's name, `a.velocity_after`; as in a result's
     /// `uncertainty`.
     pub quantity: String,
-    /// Of the values; empty where there is none.
+    /// Of the values; empty where there is none, as of quaternions.
     pub unit: String,
+    /// Of the differences: `rad` of orientations, whose difference is a rotation vector; else that of
+    /// the values.
+    #[serde(default)]
+    pub difference_unit: String,
     /// One for each result. States are each at its own collision time.
     pub entries: Vec<Entry>,
     /// Of each later result from the first.

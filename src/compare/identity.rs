@@ -2,7 +2,7 @@
 
 use super::ResultResiduals;
 use crate::scene::Scene;
-use crate::words::{listed, quoted, significant};
+use crate::words::{listed, quoted, rounded, significant};
 use crate::{Error, Reconstruction, Result};
 
 /// Refuses a result that can't be of `scene`.
@@ -22,6 +22,7 @@ pub(super) fn check(scene: &Scene, result: &Reconstruction) -> Result<()> {
     let last = times().fold(f64::NEG_INFINITY, f64::max);
     match result.collision_time.value {
         Some(time) if !(first..=last).contains(&time) => {
+            let [time, first, last] = [time, first, last].map(rounded);
             let problem =
                 format!("is {time} s, but the scene's poses are from {first} s to {last} s");
             Err(Error::invalid("collision_time.value", problem)

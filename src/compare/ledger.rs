@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Reconstruction, Scene};
 
-/// A deviation that is a smaller part of the number itself is rounding: the method conserves it
-/// exactly.
+/// A deviation or a change that is a smaller part of the number itself is rounding: the method
+/// conserves it exactly.
 const ROUNDING: f64 = 1e-9;
 /// A part of each deviation to step by: the ledger is a polynomial of low degree.
 const STEP: f64 = 1e-3;
@@ -114,7 +114,7 @@ fn about(result: &Reconstruction) -> Vector3<f64> {
     })
 }
 
-/// A deviation that is rounding is none.
+/// A deviation that is rounding is none, and a change that is rounding is zero.
 fn without_rounding(
     mut change: LedgerEntry,
     before: &LedgerEntry,
@@ -124,6 +124,9 @@ fn without_rounding(
     let size = numbers.fold(0.0, |most: f64, number| most.max(number.abs()));
     for std in &mut change.std {
         *std = std.filter(|std| *std > ROUNDING * size);
+    }
+    for value in change.value.iter_mut().flatten().filter(|value| value.abs() <= ROUNDING * size) {
+        *value = 0.0;
     }
     change
 }

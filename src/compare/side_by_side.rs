@@ -8,6 +8,8 @@ use crate::reconstruct::Estimate;
 use crate::rigid_body::quaternion::from_wxyz;
 use crate::{Reconstruction, Scene};
 
+/// A difference that is a smaller part of the numbers is rounding.
+const ROUNDING: f64 = 1e-12;
 const NOT_DETERMINED: &str = "not determined";
 
 /// All quantities, with one entry for each of `results`, which are of `scene`.
@@ -21,6 +23,10 @@ pub(super) fn quantities(scene: &Scene, results: &[(String, Reconstruction)]) ->
                 .map(|(quantity, unit, _)| Quantity {
                     quantity: quantity.clone(),
                     unit: unit.to_string(),
+                    difference_unit: match quantity.ends_with(".orientation") {
+                        true => "rad".to_string(),
+                        false => unit.to_string(),
+                    },
                     entries: Vec::new(),
                     differences: Vec::new(),
                 })
@@ -76,7 +82,7 @@ impl<'a> Column<'a> {
             let name = |quantity: &str| format!("{}.{quantity}", body.name);
             let why = body.reason.as_deref();
             column.vector(&name("position"), "m", Some(body.position), None);
-            column.vector(&name("orientation"), "rad", body.orientation, why);
+            column.vector(&name("orientation"), "", body.orientation, why);
             column.vector(&name("velocity_before"), "m/s", Some(body.velocity_before), None);
             column.vector(&name("velocity_after"), "m/s", Some(body.velocity_after), None);
             let (before, after) = (body.angular_velocity_before, body.angular_velocity_after);
@@ -126,7 +132,11 @@ fn difference(first: &Entry, later: &Entry) -> Difference {
             let (from, to) = (from_wxyz([w, x, y, z]), from_wxyz([s, a, b, c]));
             (to * from.inverse()).scaled_axis().iter().copied().collect()
         }
-        _ => to.iter().zip(from).map(|(to, from)| to - from).collect(),
+        _ => {
+            let size = from.iter().chain(to).fold(0.0, |most: f64, one| most.max(one.abs()));
+            let apart = to.iter().zip(from).map(|(to, from)| to - from);
+            apart.map(|one| if one.abs() <= ROUNDING * size { 0.0 } else { one }).collect()
+        }
     };
     let in_sigmas = difference.iter().zip(first.std.iter().zip(&later.std)).filter_map(
         |(difference, (one, other))| {

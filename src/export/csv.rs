@@ -28,7 +28,8 @@ const HEADER: [&str; 16] = [
 ///
 /// Times are the scene's. The collision has two rows a body, `before` and `after`: one pose, two
 /// velocities. What the result doesn't tell is empty. Positions are those of the annotated point,
-/// velocities those of the centre of mass; all in the world.
+/// velocities those of the centre of mass; all in the world. Before a name that a spreadsheet would
+/// compute, such as `=a`, stands an apostrophe.
 ///
 /// # Errors
 /// The result has no setting or no collision time, the frames are too many, or the motion can't be
@@ -51,7 +52,7 @@ pub fn csv(result: &Reconstruction, fps: Option<f64>) -> Result<String> {
         for (segment, track) in [("before", &body.before), ("after", &body.after)] {
             for frame in 0..track.times.len() {
                 let mut cells =
-                    vec![track.times[frame].to_string(), body.name.clone(), segment.into()];
+                    vec![track.times[frame].to_string(), text(&body.name), segment.into()];
                 cells.extend(numbers(track, frame));
                 write(cells);
             }
@@ -59,6 +60,14 @@ pub fn csv(result: &Reconstruction, fps: Option<f64>) -> Result<String> {
     }
     let bytes = writer.into_inner().expect("memory takes every row");
     Ok(String::from_utf8(bytes).expect("every cell is text"))
+}
+
+/// A name that a spreadsheet would compute is kept a text.
+fn text(name: &str) -> String {
+    match name.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        true => format!("'{name}"),
+        false => name.to_string(),
+    }
 }
 
 /// Position, orientation, velocity and spin; empty where they aren't known.

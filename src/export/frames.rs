@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use crate::motion::{BodyMotion, Motion, Track, sampled};
 use crate::scene::bounds::FPS;
 use crate::scene::values::check_range;
+use crate::words::rounded;
 use crate::{Error, Reconstruction, Result, Scene};
 
 /// The frame rate where neither the caller nor the scene states one.
@@ -46,8 +47,11 @@ pub(super) fn film(result: &Reconstruction, fps: Option<f64>) -> Result<Film> {
     let last_s = times().fold(f64::NEG_INFINITY, f64::max);
     let frames = (last_s - first_s) * fps;
     if frames > MOST_FRAMES {
-        let problem =
-            format!("{fps} a second from {first_s} s to {last_s} s are {frames:.0} frames");
+        let problem = format!(
+            "{fps} a second from {} s to {} s are {frames:.0} frames",
+            rounded(first_s),
+            rounded(last_s)
+        );
         return Err(Error::invalid("fps", problem)
             .mend(format!("ask for fewer frames a second: {MOST_FRAMES} are the most")));
     }

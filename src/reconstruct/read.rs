@@ -10,7 +10,7 @@ use crate::files::{display_name, read_text};
 use crate::json::decode;
 use crate::rigid_body::quaternion::to_wxyz;
 use crate::scene::values::{check_range, unit_quaternion};
-use crate::words::listed;
+use crate::words::{listed, rounded};
 use crate::{Error, Result, Scene};
 
 /// Far beyond any collision, and far enough from overflow that squares stay finite.
@@ -99,6 +99,7 @@ impl Reconstruction {
         let last_s = seen().fold(f64::NEG_INFINITY, f64::max);
         match self.collision_time.value {
             Some(time_s) if !(first_s..=last_s).contains(&time_s) => {
+                let [time_s, first_s, last_s] = [time_s, first_s, last_s].map(rounded);
                 let problem =
                     format!("is {time_s} s, but poses are from {first_s} s to {last_s} s");
                 Err(Error::invalid("collision_time.value", problem).mend(mend))

@@ -9,7 +9,7 @@ use crate::improve::Improvement;
 use crate::json::pretty;
 use crate::motion::Motion;
 use crate::rigid_body::quaternion::to_wxyz;
-use crate::scene::{DynamicBody, Noise, Shape};
+use crate::scene::{DynamicBody, Noise, Setting, SettingCamera, SettingPlane, Shape};
 use crate::{Reconstruction, Scene};
 
 /// The value of a report's field `schema`.
@@ -65,18 +65,11 @@ pub struct SceneView {
     /// One σ of the annotations, if stated.
     pub noise: Option<Noise>,
     /// The camera, if stated.
-    pub camera: Option<CameraView>,
+    pub camera: Option<SettingCamera>,
     /// What moves, the reference body first.
     pub bodies: Vec<BodyView>,
     /// The static body, if there is one.
-    pub plane: Option<PlaneView>,
-}
-
-/// Where the scene was filmed from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CameraView {
-    /// The centre, m.
-    pub position: [f64; 3],
+    pub plane: Option<SettingPlane>,
 }
 
 /// A body that moves.
@@ -101,17 +94,6 @@ pub struct ObservationView {
     pub orientation: Option<[f64; 4]>,
 }
 
-/// A static body: the plane normal·p = height.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PlaneView {
-    /// Its name.
-    pub name: String,
-    /// Unit normal out of the solid.
-    pub normal: [f64; 3],
-    /// m.
-    pub height: f64,
-}
-
 /// A result, and how it goes with the poses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModelView {
@@ -129,19 +111,16 @@ pub struct ModelView {
 
 impl SceneView {
     pub(super) fn new(scene: &Scene) -> SceneView {
+        let Setting { up, gravity, fps, camera, plane, bodies: _ } = scene.setting();
         SceneView {
             name: scene.name().to_string(),
-            up: scene.up_in_world().into_inner().into(),
-            gravity: scene.gravity_m_s2(),
-            fps: scene.fps(),
+            up,
+            gravity,
+            fps,
             noise: scene.noise(),
-            camera: scene.camera().map(|camera| CameraView { position: camera.position }),
+            camera,
             bodies: scene.bodies().iter().map(BodyView::new).collect(),
-            plane: scene.plane().map(|plane| PlaneView {
-                name: plane.name.clone(),
-                normal: plane.normal_in_world.into_inner().into(),
-                height: plane.height_m,
-            }),
+            plane,
         }
     }
 }

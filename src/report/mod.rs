@@ -12,8 +12,7 @@ mod document;
 mod page;
 
 pub use document::{
-    BodyView, CameraView, ModelView, ObservationView, PlaneView, REPORT_SCHEMA, Report, SceneView,
-    Versions,
+    BodyView, ModelView, ObservationView, REPORT_SCHEMA, Report, SceneView, Versions,
 };
 pub use page::{has_page, page, require_page};
 

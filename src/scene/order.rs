@@ -2,7 +2,7 @@
 
 use super::bounds::{LONGEST_SPAN_S, SAME_TIME_S};
 use super::{Observation, Warning};
-use crate::words::quoted;
+use crate::words::{quoted, rounded};
 use crate::{Error, Result};
 
 /// Orientations nearer than this, in rad, are the same annotation: the rounding of its text.
@@ -38,7 +38,7 @@ pub(super) fn sorted(
             Some((first, last)) if observation.time_s - last.time_s < SAME_TIME_S => {
                 if !is_same_pose(last, &observation) {
                     let at = format!("{place}[{index}]");
-                    let time = observation.time_s;
+                    let time = rounded(observation.time_s);
                     let problem =
                         format!("has the time of {place}[{first}], {time} s, but another pose");
                     return Err(Error::invalid(at, problem).mend("keep the right one of the two"));

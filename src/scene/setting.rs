@@ -9,6 +9,7 @@ use super::bounds::{FPS, GRAVITY_M_S2, LONGEST_SPAN_S, TIME_S};
 use super::check::check_names;
 use super::values::{check_range, position, unit_vector};
 use super::{Camera, DynamicBody, Observation, Scene, Shape};
+use crate::words::rounded;
 use crate::{Error, Result};
 
 /// Where and when a collision was seen. SI units, world frame.
@@ -146,7 +147,7 @@ fn dynamic(place: &str, body: &SettingBody) -> Result<DynamicBody> {
         check_range(&place, time_s, &TIME_S, "give the time in s")?;
     }
     if first_s >= last_s || last_s - first_s > LONGEST_SPAN_S {
-        let problem = format!("is from {first_s} s to {last_s} s");
+        let problem = format!("is from {} s to {} s", rounded(first_s), rounded(last_s));
         return Err(Error::invalid(format!("{place}.seen"), problem)
             .mend("give the times of the first and the last pose, a day apart at most"));
     }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::gaps::{self, Gap};
 use super::{DynamicBody, Scene, Shape, Warning};
-use crate::words::quoted;
+use crate::words::{quoted, rounded};
 
 /// What people mean instead of m: how many go into a metre, and the factor around that number
 /// that still points to the unit. Wrong frame rates give factors too, hence the narrow ones.
@@ -62,9 +62,10 @@ fn size(body: &DynamicBody) -> Option<Warning> {
         steps.map(|pair| (pair[1].position_in_world - pair[0].position_in_world).norm()).sum();
     (path > 0.0 && smallest > LARGEST_SIZE_PER_PATH * path).then(|| Warning {
         text: format!(
-            "body {}: its size of {smallest} m is more than {LARGEST_SIZE_PER_PATH} times its \
+            "body {}: its size of {} m is more than {LARGEST_SIZE_PER_PATH} times its \
              path of {path:.4} m; the size looks like cm or mm",
-            quoted(&body.name)
+            quoted(&body.name),
+            rounded(smallest)
         ),
         mend: MEND.into(),
     })

@@ -4,7 +4,7 @@ use nalgebra::UnitQuaternion;
 
 use super::bounds::{FEW_POSES, LEAST_POSES};
 use super::{DynamicBody, Scene, Shape, Warning, gaps, units};
-use crate::words::quoted;
+use crate::words::{counted, quoted};
 
 /// A turn beyond this between neighbouring poses, in degrees, might as well be the other way
 /// round: three quarters of the half turn at which the two are alike.
@@ -25,7 +25,7 @@ pub(super) fn look(scene: &Scene) -> Vec<Warning> {
     for body in scene.bodies() {
         warnings.extend(unseen_spin(scene, body));
         warnings.extend(large_turns(body));
-        warnings.extend(uneven_steps(body));
+        warnings.extend(uneven_steps(scene, body));
     }
     warnings.extend(units::look(scene));
     warnings
@@ -87,13 +87,13 @@ fn large_turns(body: &DynamicBody) -> Option<Warning> {
     Some(Warning {
         text: format!(
             "body {}: may turn by more than half a turn between poses: {:.0}° or {:.0}° from {:.4} s \
-             to {:.4} s ({} such steps)",
+             to {:.4} s ({})",
             quoted(&body.name),
             first.angle.to_degrees(),
             360.0 - first.angle.to_degrees(),
             first.start_s,
             first.start_s + first.step_s,
-            suspicious.len()
+            counted(suspicious.len(), "such step")
         ),
         mend: "annotate poses in between, or check these orientations".into(),
     })
@@ -112,10 +112,17 @@ fn turns(body: &DynamicBody) -> Vec<Turn> {
 }
 
 /// Sampling that is regular but for some steps, or a step much longer than the others. One
-/// longer step is as it should be: the collision may hide a few frames.
-fn uneven_steps(body: &DynamicBody) -> Option<Warning> {
+/// longer step is as it should be: the collision may hide a few frames, and as many as it likes where
+/// it can be nowhere else.
+fn uneven_steps(scene: &Scene, body: &DynamicBody) -> Option<Warning> {
     let times: Vec<f64> = body.observations.iter().map(|seen| seen.time_s).collect();
-    let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let gaps = scene.gaps();
+    let collides_in = |step: &[f64]| match gaps.as_slice() {
+        [only] => (step[0]..step[1]).contains(&only.midpoint_s()),
+        _ => false,
+    };
+    let between: Vec<&[f64]> = times.windows(2).filter(|step| !collides_in(step)).collect();
+    let steps: Vec<f64> = between.iter().map(|step| step[1] - step[0]).collect();
     let mut sorted = steps.clone();
     sorted.sort_by(f64::total_cmp);
     let median = *sorted.get(sorted.len() / 2)?;
@@ -132,13 +139,13 @@ fn uneven_steps(body: &DynamicBody) -> Option<Warning> {
     let worst = *odd.iter().max_by(|one, other| deviation(one).total_cmp(&deviation(other)))?;
     Some(Warning {
         text: format!(
-            "body {}: uneven steps: mostly {median:.6} s, but {:.6} s from {:.6} s to {:.6} s ({} \
-             such steps)",
+            "body {}: uneven steps: mostly {median:.6} s, but {:.6} s from {:.6} s to {:.6} s \
+             ({})",
             quoted(&body.name),
             steps[worst],
-            times[worst],
-            times[worst + 1],
-            odd.len()
+            between[worst][0],
+            between[worst][1],
+            counted(odd.len(), "such step")
         ),
         mend: "check the frame numbers or times there; if frames are only missing, all is well"
             .into(),

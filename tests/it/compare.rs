@@ -459,3 +459,58 @@ fn another_scene_is_a_warning() {
         assert!(message.starts_with(told) && message.is_empty() == told.is_empty(), "{message}");
     }
 }
+
+/// Two digits of the least deviation on both sides, no powers of ten, and numbers' differences with
+/// their sign; orientations differ by an angle.
+#[test]
+fn side_by_side_shows_as_many_digits_as_matter() {
+    let folder = folder();
+    fs::write(folder.path().join("scene.json"), fs::read(scene_path("boxes")).unwrap()).unwrap();
+    for (name, options) in [("refined.json", Options::default()), ("paper.json", Options::paper())]
+    {
+        let result = reconstruct(&scene("boxes"), &options).unwrap();
+        fs::write(folder.path().join(name), result.to_json()).unwrap();
+    }
+    let output = run(folder.path(), &["scene.json", "refined.json", "paper.json"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let row = |start: &str| -> Vec<&str> {
+        let line = text.lines().find(|line| line.trim_start().starts_with(start)).unwrap();
+        line.split_whitespace().collect()
+    };
+    assert_eq!(row("restitution")[1..6], ["0.5909", "±", "0.0050", "0.6743", "+0.0834"]);
+    assert_eq!(row("mass ratio")[2..7], ["1.809", "±", "0.016", "1.799", "-0.010"]);
+    assert!(row("a  orientation")[10].ends_with('°'), "{text}");
+    let comparison =
+        compared(&scene("boxes"), &[&refined(&scene("boxes")), &paper(&scene("boxes"))]);
+    let of = |name: &str| {
+        let one = quantity(&comparison, name);
+        (one.unit.as_str(), one.difference_unit.as_str())
+    };
+    assert_eq!(of("a.orientation"), ("", "rad"));
+    assert_eq!(of("a.position"), ("m", "m"));
+}
+
+/// Where rounding is all, numbers are the same; the refined method conserves momentum exactly.
+#[test]
+fn rounding_is_no_difference() {
+    let scene = scene("boxes");
+    let result = refined(&scene);
+    let mut rounded = result.clone();
+    rounded.impulse[0] = rounded.impulse[0].next_up();
+    let comparison = compared(&scene, &[&result, &rounded]);
+    assert_eq!(quantity(&comparison, "impulse").differences[0].size, Some(0.0));
+    let change = quantity(&comparison, "momentum_change").entries[0].value.clone();
+    assert_eq!(change, Some(vec![0.0; 3]));
+}
+
+/// Gravity along the floor is no gravity upwards.
+#[test]
+fn where_gravity_cannot_be_the_scenes_it_says_how() {
+    let scene = scene("boxes");
+    for (gravity, told) in [([9.81, 0.0, 0.0], "sideways"), ([0.0, 9.81, 0.0], "upwards")] {
+        let mut result = refined(&scene);
+        result.gravity = Some(gravity);
+        let error = compare(&scene, &[("result".to_string(), result)]).unwrap_err();
+        assert!(error.to_string().contains(told), "{error}");
+    }
+}

@@ -1,6 +1,7 @@
 //! `smash demo`: the whole story, from nothing.
 
 use std::fs;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
@@ -91,4 +92,26 @@ fn files_of_others_are_left_alone() {
     }
     fs::write(folder.path().join("file"), "").unwrap();
     assert_eq!(smash(folder.path(), &["demo", "-o", "file"]).status.code(), Some(1));
+}
+
+/// That a page is open is said when its opener says so.
+#[test]
+fn a_browser_that_cannot_be_opened_is_told_of() {
+    if !smash::report::has_page() {
+        return;
+    }
+    for (ends, opens) in [("exit 3", false), ("exit 0", true)] {
+        let folder = tempfile::tempdir().unwrap();
+        let opener = folder.path().join("xdg-open");
+        fs::write(&opener, format!("#!/bin/sh\n{ends}\n")).unwrap();
+        fs::set_permissions(&opener, fs::Permissions::from_mode(0o755)).unwrap();
+        let mut command = Command::new(SMASH);
+        command.args(["demo", "--open"]).current_dir(folder.path()).stdin(Stdio::null());
+        let output = command.env("PATH", folder.path()).output().unwrap();
+        let words = String::from_utf8(output.stdout).unwrap();
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{errors}");
+        assert_eq!(words.contains("is open in the browser"), opens, "{words}");
+        assert_eq!(errors.contains("warning: no browser could be opened"), !opens, "{errors}");
+    }
 }

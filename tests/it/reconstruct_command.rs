@@ -231,3 +231,33 @@ fn a_terminal_shows_progress() {
     let rest = &seen[last_progress..];
     assert!(rest.contains("\u{1b}[2K") && rest.contains("mass ratio"), "{rest:?}");
 }
+
+/// A fit that no flag catches may still miss the poses by more than chance.
+#[test]
+fn no_flags_is_no_praise_where_residuals_are_beyond_chance() {
+    let scene = format!("{}/scenes/boxes.json", env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().unwrap();
+    let told = |options: &[&str]| {
+        let arguments = [&[scene.as_str()], options].concat();
+        quiet_success(run(&folder, &arguments))
+    };
+    assert!(told(&[]).contains("No flags: the fit shows none"));
+    let paper = told(&["--preset", "paper"]);
+    assert!(paper.contains("No flags; but the residuals are 1.29 times"), "{paper}");
+}
+
+/// What is proposed next is of the model that was asked for.
+#[test]
+fn the_next_steps_keep_the_options() {
+    let scene = format!("{}/scenes/thrown_ball_drag.json", env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().unwrap();
+    let with = "gravity_scale:s=1.2";
+    let arguments = [&scene, "--with", with, "--tilt-std", "0.5", "--intervals", "profile"];
+    let words = quiet_success(run(&folder, &arguments));
+    for expected in [
+        format!("smash diagnose {scene} --tilt-std 0.5 --intervals profile --with {with} "),
+        format!("smash reconstruct {scene} --tilt-std 0.5 --robust --with {with} "),
+    ] {
+        assert!(words.contains(&expected), "no {expected} in\n{words}");
+    }
+}

@@ -171,3 +171,25 @@ fn an_up_that_points_down_is_told() {
     let texts: Vec<_> = scene.warnings().iter().map(|one| one.text.as_str()).collect();
     assert!(texts.len() == 2 && texts.iter().all(|one| one.contains("point down")), "{texts:?}");
 }
+
+/// Between two poses before it and two after it the collision can be nowhere else, however long it
+/// takes; a step as long among more poses is odd.
+#[test]
+fn the_only_gap_for_the_collision_may_be_long() {
+    let spaced = |frames: [i32; 5], count: usize| {
+        edited(two_boxes(), |s| {
+            for body in 0..2 {
+                poses(s, body).truncate(count);
+                for (pose, frame) in poses(s, body).iter_mut().zip(frames) {
+                    pose["frame"] = json!(frame);
+                }
+            }
+        })
+    };
+    let told = |value: Value| {
+        let scene = Scene::parse(&value.to_string(), "gap.json").unwrap();
+        scene.warnings().iter().any(|one| one.text.contains("uneven steps"))
+    };
+    assert!(!told(spaced([0, 6, 66, 72, 0], 4)));
+    assert!(told(spaced([0, 6, 12, 18, 78], 5)));
+}

@@ -13,8 +13,8 @@ use smash::report::{has_page, page, report};
 use smash::simulate::{SimulationSpec, simulate};
 use smash::{Options, Result, compare, diagnose, improve, reconstruct};
 
-use super::browser;
 use super::typed::Typed;
+use super::{again, browser};
 use folder::DemoFolder;
 
 /// A ball that spins, a box, and a force that the model doesn't know.
@@ -81,9 +81,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     folder.better.write(improvement.result.to_json().as_bytes())?;
     tell(story::ladder(&improvement))?;
 
-    let with: String =
-        improvement.result.effects.iter().map(|one| format!(" --with {}", one.label())).collect();
-    step(story::TRUTH, format!("smash reconstruct {scene_path}{with} -o {better_path}"))?;
+    let better = again::reconstruction(&scene_path, &improvement.result.made_with()?);
+    step(story::TRUTH, format!("{better} -o {better_path}"))?;
     tell(story::truth(&base, &improvement.result, &simulation.truth))?;
 
     let results =
@@ -97,7 +96,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     if seen.is_some() {
         folder.report.write(page(&report)?.as_bytes())?;
     }
-    let is_open = arguments.open && seen.as_deref().is_some_and(|path| browser::open(path).is_ok());
+    let is_open = arguments.open && seen.as_deref().is_some_and(browser::is_opened);
+    if let Some(path) = seen.as_ref().filter(|_| arguments.open && !is_open) {
+        super::warn(&[format!("no browser could be opened\n  hint: open {path} in one yourself")]);
+    }
     tell(story::closing(seen.as_deref(), is_open))?;
     if !arguments.json {
         return Ok(());

@@ -184,7 +184,8 @@ fn tilt(refined: &RefinedScene, result: &Reconstruction) -> Result<[f64; 2]> {
     };
     let down = gravity.dot(&Vector3::from(refined.down));
     if down <= 0.0 {
-        return Err(Error::invalid("gravity", "points upwards in this scene")
+        let where_to = if down < 0.0 { "upwards" } else { "sideways" };
+        return Err(Error::invalid("gravity", format!("points {where_to} by this scene's `up`"))
             .mend("name the scene that this result was made from, or reconstruct it again"));
     }
     Ok(refined.across.map(|across| gravity.dot(&Vector3::from(across)) / down))

@@ -64,6 +64,12 @@ fn the_format_is_told_or_guessed() {
     ] {
         assert_eq!(run(folder.path(), arguments).status.code(), Some(2), "{arguments:?}");
     }
+    let wrong =
+        |arguments: &[&str]| String::from_utf8(run(folder.path(), arguments).stderr).unwrap();
+    let said = wrong(&["result.json", "-o", "film.gltf"]);
+    assert!(said.contains("film.gltf: ") && said.contains("Usage: smash export "), "{said}");
+    let said = wrong(&["result.json", "-o", "film.glb", "--fps", "-5"]);
+    assert!(said.contains("above 0") && !said.contains("unexpected"), "{said}");
 }
 
 #[test]

@@ -170,3 +170,29 @@ fn late_time_stamps_are_no_matter() {
         assert!(apart.norm() < 1e-6);
     }
 }
+
+/// A spreadsheet computes what starts so: from a stranger's result it would be a stranger's formula.
+#[test]
+fn a_name_that_would_be_computed_stays_a_text() {
+    for (name, cell) in [
+        ("=1+1", "'=1+1"),
+        ("+a", "'+a"),
+        ("-a", "'-a"),
+        ("@a", "'@a"),
+        ("a=1", "a=1"),
+        ("=\"a\",1", "\"'=\"\"a\"\",1\""),
+    ] {
+        let mut result = result("ball_on_floor");
+        result.bodies[0].name = name.to_string();
+        result.setting.as_mut().unwrap().bodies[0].name = name.to_string();
+        let table = export::csv(&result, Some(60.0)).unwrap();
+        for line in table.lines().skip(1) {
+            let (_, rest) = line.split_once(',').unwrap();
+            assert!(
+                rest.starts_with(&format!("{cell},before,"))
+                    || rest.starts_with(&format!("{cell},after,")),
+                "{line}"
+            );
+        }
+    }
+}

@@ -119,6 +119,16 @@ fn what_is_not_of_the_scene_is_refused_and_leaves_nothing() {
     }
 }
 
+/// Standard output carries the page.
+#[test]
+fn json_has_no_place_beside_the_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = format!("{ROOT}/scenes/boxes.json");
+    let output = smash(folder.path(), &["report", &scene, "-o", "-", "--json"]);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("leave `--json` out"));
+}
+
 /// The page's types are made from this schema.
 #[test]
 fn the_page_is_built_for_the_schema_of_today() {

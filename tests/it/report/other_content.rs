@@ -81,6 +81,8 @@ fn the_same_poses_written_in_another_way_are_the_same() {
         file["name"] = "another name".into();
         file["source"] = serde_json::json!({"film": "7"});
         file["bodies"][0]["observations"].as_array_mut().unwrap().reverse();
+        let x = &mut file["bodies"][0]["observations"][3]["position"][0];
+        *x = x.as_f64().unwrap().next_up().into();
         let checked =
             Scene::from_file(serde_json::from_value::<SceneFile>(file.clone()).unwrap()).unwrap();
         *file = serde_json::to_value(checked.to_file()).unwrap();
