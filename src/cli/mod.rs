@@ -20,6 +20,7 @@ mod progress;
 mod reconstruct;
 mod report;
 mod schema;
+mod side_by_side;
 mod simulate;
 mod studio;
 mod summary;

@@ -61,3 +61,8 @@ pub fn probability(p: f64) -> String {
         _ => format!("{p:.3}"),
     }
 }
+
+/// So many deviations, in a column.
+pub fn sigmas(count: f64) -> String {
+    format!("{:>6} σ", decimals(count, 1))
+}

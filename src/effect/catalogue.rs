@@ -64,3 +64,18 @@ pub fn find(name_or_path: &str) -> Result<Cow<'static, Effect>> {
 pub(super) fn is_path(text: &str) -> bool {
     text == "-" || text.ends_with(".toml") || text.contains(['/', std::path::MAIN_SEPARATOR])
 }
+
+/// The effect of the catalogue with this name.
+///
+/// # Errors
+/// There is none.
+pub(crate) fn known(name: &str) -> Result<&'static Effect> {
+    catalogue().iter().find(|effect| effect.name == name).ok_or_else(|| {
+        let names: Vec<&str> = catalogue().iter().map(|effect| effect.name.as_str()).collect();
+        let problem = format!("{} is no effect of the catalogue", quoted(name));
+        Error::invalid("name", problem).mend(format!(
+            "{}; an effect of your own stands in `definition`",
+            did_you_mean(name, &names)
+        ))
+    })
+}

@@ -24,6 +24,7 @@ mod parse;
 mod program;
 mod read;
 mod request;
+mod request_file;
 mod rules;
 mod token;
 mod trial;
@@ -34,12 +35,14 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
+pub(crate) use catalogue::known;
 pub use catalogue::{catalogue, find};
 pub use hook::Hook;
 pub use names::INPUTS;
 pub use program::{Instruction, Operation, Program};
 pub use request::EffectRequest;
-pub(crate) use request::{RequestFile, known, name_of};
+pub(crate) use request::name_of;
+pub(crate) use request_file::RequestFile;
 pub use unit::{Dimension, Unit};
 
 /// A law with its parameters, and what people should know of it.

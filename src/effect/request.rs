@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 
 use std::fmt;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::file::EffectFile;
-use super::{Effect, Parameter, catalogue, find};
+use super::request_file::RequestFile;
+use super::{Effect, Parameter, find};
 use crate::words::{did_you_mean, limit, quoted};
 use crate::{Error, ErrorKind, Result};
 
@@ -23,59 +22,6 @@ pub struct EffectRequest {
     pub body: Option<String>,
     /// The parameters that aren't unknown, in their units: 1 or 3 numbers.
     pub fixed: BTreeMap<String, Vec<f64>>,
-}
-
-/// An effect, as it was asked for.
-#[derive(Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "EffectRequest")]
-pub(crate) struct RequestFile {
-    /// Its name in the catalogue, or in the user's file.
-    name: String,
-    /// The body that it acts on; null for all that it can act on.
-    #[serde(default)]
-    body: Option<String>,
-    /// The parameters that were given, in their units: 1 or 3 numbers each.
-    #[serde(default)]
-    fixed: BTreeMap<String, Vec<f64>>,
-    /// The user's file, as it was named; missing where there is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    file: Option<String>,
-    /// What it is, in the form of its file; missing where it is the catalogue's effect of this name.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "Option<EffectFile>")]
-    definition: Option<Effect>,
-}
-
-impl From<EffectRequest> for RequestFile {
-    fn from(EffectRequest { effect, body, fixed }: EffectRequest) -> RequestFile {
-        let is_known = catalogue().contains(&effect);
-        RequestFile {
-            name: effect.name.clone(),
-            body,
-            fixed,
-            file: effect.file.clone(),
-            definition: (!is_known).then_some(effect),
-        }
-    }
-}
-
-impl TryFrom<RequestFile> for EffectRequest {
-    type Error = String;
-
-    fn try_from(asked: RequestFile) -> std::result::Result<EffectRequest, String> {
-        // The reader takes what follows a semicolon for the mend.
-        let in_words = |error: Error| error.to_string().replace("\n  hint: ", "; ");
-        let effect = match asked.definition {
-            Some(effect) => effect,
-            None => known(&asked.name).map_err(in_words)?.clone(),
-        };
-        for (name, numbers) in &asked.fixed {
-            let parameter = parameter(&effect, name).map_err(in_words)?;
-            check_value(&effect, parameter, numbers).map_err(in_words)?;
-        }
-        let effect = Effect { file: asked.file, ..effect };
-        Ok(EffectRequest { effect, body: asked.body, fixed: asked.fixed })
-    }
 }
 
 /// As [`EffectRequest::parse`] reads it: `NAME[@BODY][:parameter=value,…]`, of a user's own effect
@@ -180,22 +126,7 @@ fn known_value(effect: &Effect, name: &str, value: &str) -> Result<(String, Vec<
     Ok((name.to_owned(), numbers))
 }
 
-/// The effect of the catalogue with this name.
-///
-/// # Errors
-/// There is none.
-pub(crate) fn known(name: &str) -> Result<&'static Effect> {
-    catalogue().iter().find(|effect| effect.name == name).ok_or_else(|| {
-        let names: Vec<&str> = catalogue().iter().map(|effect| effect.name.as_str()).collect();
-        let problem = format!("{} is no effect of the catalogue", quoted(name));
-        Error::invalid("name", problem).mend(format!(
-            "{}; an effect of your own stands in `definition`",
-            did_you_mean(name, &names)
-        ))
-    })
-}
-
-fn parameter<'a>(effect: &'a Effect, name: &str) -> Result<&'a Parameter> {
+pub(super) fn parameter<'a>(effect: &'a Effect, name: &str) -> Result<&'a Parameter> {
     effect.parameters.iter().find(|known| known.name == name).ok_or_else(|| {
         let names: Vec<&str> = effect.parameters.iter().map(|known| known.name.as_str()).collect();
         let problem = format!("`{}` has no parameter {}", effect.name, quoted(name));
@@ -203,7 +134,7 @@ fn parameter<'a>(effect: &'a Effect, name: &str) -> Result<&'a Parameter> {
     })
 }
 
-fn check_value(effect: &Effect, parameter: &Parameter, numbers: &[f64]) -> Result<()> {
+pub(super) fn check_value(effect: &Effect, parameter: &Parameter, numbers: &[f64]) -> Result<()> {
     if numbers.len() != parameter.null.len() {
         return Err(no_value(effect, parameter, &format!("{numbers:?}")));
     }
