@@ -88,13 +88,22 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
         refitted.collect()
     };
     let mut candidates = refitted(&promising);
-    // Far from the null slopes foretell little: where none of these will do, another may.
-    if candidates.iter().all(|candidate| Goodness::by(&candidate.fitted, &[]).is_structured) {
+    // Far from the null slopes foretell little: where none of these will do, another may, and where
+    // the model is bent far, another may do better.
+    let is_structured = |candidate: &Candidate| Goodness::by(&candidate.fitted, &[]).is_structured;
+    if is_far_off(fitted) || candidates.iter().all(is_structured) {
         let others = instances.iter().filter(|instance| !promising.contains(instance));
         candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
     }
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     candidates
+}
+
+/// Whether the poses are missed by so much that slopes foretell little; it shows only where noise is
+/// stated.
+fn is_far_off(fitted: &Fitted) -> bool {
+    const FAR: f64 = 10.0;
+    fitted.has_stated_noise() && fitted.chi2() > FAR * fitted.numbers()
 }
 
 /// The reconstruction of a fitted model, with covariance intervals.
