@@ -1,6 +1,9 @@
 //! A scene with what is true of it.
 
+use std::path::Path;
+
 use smash::effect::EffectRequest;
+use smash::files::Output;
 use smash::scene::Noise;
 use smash::{Result, Scene};
 
@@ -22,6 +25,15 @@ pub struct Case {
 }
 
 impl Case {
+    /// Writes the scene into `folder`, named by what is hidden and the seed.
+    ///
+    /// # Errors
+    /// It can't be written.
+    pub fn keep(&self, folder: &Path) -> Result<()> {
+        let name = format!("{} {}.json", self.kind(), self.name).replace(' ', "_");
+        Output::check(&folder.join(name), &[])?.write(self.scene.to_file().to_json().as_bytes())
+    }
+
     /// The effects' names, joined by `+`, in the order of the alphabet.
     pub fn kind(&self) -> String {
         let mut names: Vec<&str> =

@@ -62,6 +62,9 @@ struct Arguments {
     /// Don't tell the noise of scenes with effects
     #[arg(long)]
     unstated: bool,
+    /// A folder that is there, to keep the scenes of single effects in: to look at one by one
+    #[arg(long, value_name = "FOLDER")]
+    keep: Option<PathBuf>,
     /// Instead, a folder of scenes case_*.json, each with its truth/case_*.json
     #[arg(long)]
     folder: Option<PathBuf>,
@@ -99,7 +102,11 @@ fn of_seeds(arguments: &Arguments) -> Result<()> {
         .flat_map(|name| (seed..seed + scenes).map(move |seed| (seed, *name)))
         .collect();
     let drawn = |(seed, name): &(u64, &str)| hidden_scene(&[name], Regime::of_seed(*seed), *seed);
-    tell(&told(in_parallel(&singles, drawn)?, unstated)?, single::tables)?;
+    let singles = told(in_parallel(&singles, drawn)?, unstated)?;
+    if let Some(folder) = &arguments.keep {
+        singles.iter().try_for_each(|case| case.keep(folder))?;
+    }
+    tell(&singles, single::tables)?;
     if only.is_some() {
         return Ok(());
     }

@@ -6,6 +6,7 @@ mod command;
 mod hidden;
 mod pairs;
 mod strange;
+mod stuck;
 mod unknown;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
