@@ -10,7 +10,7 @@ pub(crate) const TELLS_APART: f64 = 10.0;
 /// beforehand, also of `other_laws`; its differences count for less by `inflation`.
 pub(super) fn probabilities(
     candidates: &[Candidate],
-    other_laws: &[OtherLaw],
+    other_laws: &[&OtherLaw],
     inflation: f64,
 ) -> (Vec<f64>, f64) {
     let all = candidates.iter().map(|one| one.bic).chain(other_laws.iter().map(|law| law.bic));

@@ -34,7 +34,8 @@ pub struct OtherLaw {
 }
 
 impl OtherLaw {
-    /// Whether `candidate` is a special case of it, and does as well: then it says no more.
+    /// Whether `candidate` is a special case of it, and does as well: then it takes no part of its
+    /// probability, though it may be told.
     pub(super) fn is_needless_beside(&self, candidate: &Candidate, scene: &Scene) -> bool {
         let form = forms().iter().find(|form| form.line() == self.law);
         let held = form.and_then(|form| form.beyond).unwrap_or_default();

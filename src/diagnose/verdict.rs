@@ -5,7 +5,7 @@ use super::dependence::inflation;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 use super::leftover::Leftover;
 use super::ranking::{TELLS_APART, look_alikes, probabilities};
-use super::rivals::rivals;
+use super::rivals::{OtherLaw, rivals};
 use super::unexplained::unexplained;
 use super::words::explanation;
 use super::{Candidate, Goodness, reported, tried};
@@ -47,8 +47,11 @@ pub(super) fn diagnosis(
         Some(_) => rivals(scene, fitted, instances.len())?,
         None => Vec::new(),
     };
-    other_laws.retain(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)));
-    let (odds, none) = probabilities(&candidates, &other_laws, inflation);
+    let weighed: Vec<&OtherLaw> = other_laws
+        .iter()
+        .filter(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)))
+        .collect();
+    let (odds, none) = probabilities(&candidates, &weighed, inflation);
     let verdict = match (first, &rest) {
         (Some(first), Some(rest)) => {
             let bic = second.as_ref().map_or(first.bic, |(bic, _)| bic.min(first.bic));
