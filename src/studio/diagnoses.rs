@@ -10,8 +10,8 @@ use crate::{Diagnosis, Error, ErrorKind, Result, Scene};
 
 /// Diagnoses that are kept.
 const MOST_KEPT: usize = 32;
-/// Poses of all bodies that are diagnosed: the memory grows with their square, some 2 GB here.
-const MOST_POSES: usize = 5_000;
+/// Poses of all bodies that are diagnosed: so many take some 1 GB, and a minute.
+const MOST_POSES: usize = 40_000;
 
 /// The diagnoses of a studio's variants.
 #[derive(Debug)]

@@ -125,6 +125,11 @@ impl Studio {
         self.state_of(&self.shown())
     }
 
+    /// The number of what is seen now, as in its state.
+    pub fn revision(&self) -> u64 {
+        self.shown().revision
+    }
+
     /// Does `action`, saves the session, and tells what is seen then.
     ///
     /// # Errors

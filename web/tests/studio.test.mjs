@@ -446,27 +446,50 @@ test('two browsers see the same', () =>
 
 test('an answer that an act has overtaken shows nothing old', () =>
   tried(async (page) => {
-    const polls = [];
-    const nextPoll = () =>
-      until(
-        () => polls.shift(),
-        (poll) => poll !== undefined,
-        'the poll',
-      );
+    const answers = [];
     await page.route('**/api/state', async (route) => {
       const response = await route.fetch();
-      polls.push(() => route.fulfill({ response }));
+      answers.push(() => route.fulfill({ response }));
     });
+    const asked = page.waitForRequest('**/api/state');
+    await typedElsewhere(page);
+    await asked;
     // It reads the state before the act, and answers after it.
-    const answer = await nextPoll();
+    const answer = await until(() => answers.shift(), Boolean, 'the state');
     await page.getByTestId('add-quadratic_drag@ball').click();
     await shows(page, WITH_DRAG);
-    await answer();
     // The page asks again once it has taken that answer in.
-    const again = await nextPoll();
+    const again = page.waitForResponse('**/api/revision');
+    await answer();
+    await again;
     assert.match(await rmse(page), WITH_DRAG);
-    await again();
   }));
+
+test('the state is fetched only when there is a newer one', () =>
+  tried(async (page) => {
+    const asked = [];
+    page.on('request', (request) => asked.push(request.url().split('/api/')[1]));
+    for (let polls = 0; polls < 2; polls += 1) await page.waitForResponse('**/api/revision');
+    assert.ok(!asked.includes('state'), `${asked}`);
+    const fetched = page.waitForResponse('**/api/state');
+    await typedElsewhere(page);
+    await fetched;
+    await until(
+      () => page.getByTestId('law-text').inputValue(),
+      (law) => law === 'name = "theirs',
+      'the law',
+    );
+  }));
+
+/** A law that another browser types. */
+const typedElsewhere = (page) =>
+  page.evaluate(() =>
+    fetch('api/law', {
+      method: 'POST',
+      body: JSON.stringify({ draft: 'name = "theirs' }),
+      headers: { 'Content-Type': 'application/json', 'X-Smash': '1' },
+    }).then((answer) => answer.json()),
+  );
 
 test('a window that is behind leaves the law that another one types', () =>
   tried(async (page, studio) => {

@@ -9,6 +9,7 @@ use axum::response::{Redirect, Response};
 use axum::routing::{get, post};
 use axum::{Router, middleware};
 use serde::Deserialize;
+use serde_json::json;
 
 use super::body::text;
 use super::gate::{Gate, gate};
@@ -32,6 +33,7 @@ pub(super) fn router(studio: Arc<Studio>, port: u16, token: Token) -> Router {
     Router::new()
         .route(&at(""), get(whole_page))
         .route(&at("api/state"), get(state))
+        .route(&at("api/revision"), get(revision))
         .route(&at("api/act"), post(act))
         .route(&at("api/law"), post(law))
         .route(&at("api/diagnosis"), get(diagnosis))
@@ -54,6 +56,11 @@ async fn whole_page(studio: Shared) -> Response {
 
 async fn state(studio: Shared) -> Response {
     answered(studio, |studio| Ok(studio.state()), |state| json_of(&state)).await
+}
+
+/// Long films make large states: whether there is a newer one is cheap to ask.
+async fn revision(State(studio): Shared) -> Response {
+    json_of(&json!({"revision": studio.revision()}))
 }
 
 async fn act(studio: Shared, body: Body) -> Response {

@@ -35,6 +35,7 @@ fn an_effect_is_added_as_the_command_line_does() {
     assert_eq!(current(&state, "effects"), &json!([DRAG]));
     assert!(rmse(&state) < 0.2 * rmse(&first));
     assert!(state["revision"].as_u64() > first["revision"].as_u64());
+    assert_eq!(studio.get("api/revision").json(), json!({"revision": state["revision"]}));
     // The same as by `smash reconstruct`, to the last bit.
     let scene = Scene::read(studio.folder.path().join(BALL)).unwrap();
     let effect = smash::effect::EffectRequest::parse(DRAG).unwrap();

@@ -45,9 +45,9 @@ fn a_diagnosis_is_asked_again_after_a_law_changed() {
 #[test]
 fn a_scene_of_too_many_poses_is_not_diagnosed() {
     let folder = tempfile::tempdir().unwrap();
-    let observations: Vec<Value> = (0..5_001)
+    let observations: Vec<Value> = (0..40_001)
         .map(|index| {
-            let time = f64::from(index) / 2_500.0 - 1.0;
+            let time = f64::from(index) / 20_000.0 - 1.0;
             let height = if time < 0.0 { -time } else { 0.7 * time } - 0.5 * 9.81 * time * time;
             json!({"time": time, "position": [time, 0.1 + height, 0.0]})
         })

@@ -20,6 +20,7 @@ export class ConnectionLost extends Error {}
 
 export const api = {
   state: () => json<StudioState>('api/state'),
+  revision: async () => (await json<{ revision: number }>('api/revision')).revision,
   act: (action: Action) => post<StudioState>('api/act', JSON.stringify(action)),
   law: (draft: string) => post<CheckedLaw>('api/law', JSON.stringify({ draft })),
   diagnosis: (signal: AbortSignal) => json<Diagnosis>('api/diagnosis', { signal }),

@@ -91,7 +91,9 @@ export class Studio {
   private async poll(): Promise<void> {
     const wasAway = this.connection.value !== 'there';
     try {
-      this.take(await api.state());
+      const isNewer = (await api.revision()) > this.state.value.revision;
+      if (isNewer) this.take(await api.state());
+      else this.answered();
     } catch (error) {
       const longer = Math.min(2 * this.wait, LONGEST_WAIT_MS);
       this.heed(error);
