@@ -7,7 +7,6 @@ use smash::reconstruct::{
     ActiveEffect, Alternative, BodyResult, Estimate, Fit, NoiseReport, Outlier, ParameterEstimate,
     Preset, Reconstruction, SegmentCriterion,
 };
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::table::{decimals, digits_of};
 
@@ -81,16 +80,13 @@ fn write_summary(
 
 /// A flag takes residuals of twice the noise; what is beyond chance is worth a word before.
 fn no_flags(fit: &Fit) -> String {
-    /// So seldom by noise alone.
-    const CHANCE: f64 = 1e-3;
-    let by_chance = fit.chi2.zip(ChiSquared::new(fit.dof as f64).ok());
-    match (by_chance, fit.reduced_chi2) {
-        (Some((chi2, law)), Some(reduced)) if law.sf(chi2) < CHANCE => format!(
+    match fit.reduced_chi2.filter(|_| fit.is_beyond_chance()) {
+        Some(reduced) => format!(
             "No flags; but the residuals are {:.2} times as large as the stated noise, which is beyond \
              chance.",
             reduced.sqrt()
         ),
-        _ => "No flags: the fit shows none of the known signs of failure.".to_string(),
+        None => "No flags: the fit shows none of the known signs of failure.".to_string(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::{ActiveEffect, Flag, Intervals, Options, SegmentCriterion};
 use crate::scene::Setting;
@@ -215,6 +216,16 @@ pub struct Fit {
     /// Why a number is null.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+}
+
+impl Fit {
+    /// Whether the stated noise alone leaves such residuals in fewer than one case of a thousand;
+    /// false where none is stated.
+    pub fn is_beyond_chance(&self) -> bool {
+        const CHANCE: f64 = 1e-3;
+        let law = ChiSquared::new(self.dof as f64).ok();
+        self.chi2.zip(law).is_some_and(|(chi2, law)| law.sf(chi2) < CHANCE)
+    }
 }
 
 /// One phase of the solver.

@@ -101,6 +101,10 @@ pub struct ModelView {
     pub name: String,
     /// What was found.
     pub result: Reconstruction,
+    /// Whether the stated noise alone leaves such residuals in fewer than one case of a thousand;
+    /// false where none is stated.
+    #[serde(default)]
+    pub is_beyond_chance: bool,
     /// What it leaves of the poses.
     pub residuals: ResultResiduals,
     /// The same over time, along each axis.

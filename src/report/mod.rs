@@ -72,6 +72,7 @@ pub(crate) fn unchecked(
         .map(|((name, result), residuals)| {
             Ok(ModelView {
                 name: name.clone(),
+                is_beyond_chance: result.fit.is_beyond_chance(),
                 residuals,
                 series: series(scene, result)?,
                 motion: motion(scene, result, MOTION_RATE_HZ)?,

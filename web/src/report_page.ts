@@ -132,7 +132,7 @@ export class ReportPage {
     const others = report.models.filter((other) => other !== model);
     this.residuals.show(report.scene, model, others);
     this.estimates.fill(model ? estimates(report, model) : []);
-    this.ledger.fill(model ? ledger(model) : []);
+    this.ledger.fill(model ? ledger(report, model) : []);
   }
 
   private fillChoice(report: Report): void {

@@ -153,6 +153,82 @@ test('results stand side by side, and one chooses which is drawn', () =>
     );
   }));
 
+test('side by side, differences have their sign, and as many digits as the least deviation', async () => {
+  const number = (value, std) => ({ value: [value], std: [std] });
+  const file = changed(report, 'digits.html', (data) => {
+    data.quantities = [
+      {
+        quantity: 'restitution',
+        unit: '',
+        difference_unit: '',
+        entries: [number(0.61012, 0.02), number(0.60998, 0.00015)],
+        differences: [{ difference: [-0.00014], size: 0.00014, in_sigma: 0.007 }],
+      },
+      {
+        quantity: 'collision_time',
+        unit: 's',
+        difference_unit: 's',
+        entries: [number(0.4, null), number(0.4012, null)],
+        differences: [{ difference: [0.0012], size: 0.0012, in_sigma: null }],
+      },
+      {
+        quantity: 'ball.orientation',
+        unit: '',
+        difference_unit: 'rad',
+        entries: [
+          { value: [1, 0, 0, 0], std: [0.01, 0.01, 0.01] },
+          { value: [0.99995, 0.01, 0, 0], std: [0.01, 0.01, 0.01] },
+        ],
+        differences: [{ difference: [0.02, 0, 0], size: 0.02, in_sigma: 1.414 }],
+      },
+    ];
+  });
+  await looked(file, async (page) => {
+    const table = await page.getByTestId('side-by-side').textContent();
+    assert.match(table, /restitution c0\.61012 ± 0\.020000\.60998 ± 0\.00015−0\.00014 \(0\.0 σ\)/);
+    assert.match(table, /collision time t_cs0\.40000\.4012\+0\.0012/);
+    assert.match(table, /\(1\.000, 0\.010, 0\.000, 0\.000\)1\.15° \(1\.4 σ\)/);
+  });
+});
+
+test('a rung names what the poses can’t tell from its effect', () =>
+  looked(
+    changed(report, 'alike.html', (data) => {
+      data.improvement.ladder[1].indistinguishable_from = ['linear_drag@ball', 'gravity_scale'];
+    }),
+    async (page) => {
+      const ladder = await page.getByTestId('ladder').textContent();
+      assert.match(ladder, /\+ quadratic_drag@ball can’t be told from linear_drag@ball or gravity_scale/);
+    },
+  ));
+
+test('the books say where the momentum of a lone body went', async () => {
+  const books = (page) => page.getByRole('region', { name: 'The books' }).textContent();
+  await looked(report, async (page) => {
+    assert.match(await books(page), /went into what it hit: the plane, floor\./);
+  });
+  const unseen = changed(report, 'unseen.html', (data) => {
+    data.scene.plane = null;
+  });
+  await looked(unseen, async (page) => {
+    assert.match(await books(page), /went into what it hit: a body that isn’t in the scene\./);
+  });
+});
+
+test('residuals beyond chance are no praise, though no flag is raised', () =>
+  looked(
+    changed(report, 'beyond.html', (data) => {
+      data.models[1].is_beyond_chance = true;
+      data.models[1].result.fit.reduced_chi2 = 1.44;
+    }),
+    async (page) => {
+      await page.getByTestId('model-1').check();
+      const verdict = await page.getByTestId('verdict').textContent();
+      assert.match(verdict, /residuals are 1\.20 times as large as the stated noise, which is beyond chance/);
+      assert.doesNotMatch(verdict, /meets/);
+    },
+  ));
+
 /** What a click saves. */
 async function saved(page, test) {
   const [download] = await Promise.all([

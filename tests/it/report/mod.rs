@@ -9,6 +9,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 use smash::report::Report;
+use smash::{Options, Scene};
 
 const SMASH: &str = env!("CARGO_BIN_EXE_smash");
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -71,6 +72,17 @@ fn a_page_carries_the_scene_the_results_and_what_they_lack() {
         let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
         let told = model["residuals"]["position_rmse"].as_f64().unwrap();
         assert!((rms / told - 1.0).abs() < 1e-9, "{rms} {told}");
+    }
+}
+
+/// What the page has no other way to know.
+#[test]
+fn it_says_whether_residuals_are_beyond_chance() {
+    let scene = Scene::read(format!("{ROOT}/scenes/boxes.json")).unwrap();
+    for (options, is_beyond) in [(Options::default(), false), (Options::paper(), true)] {
+        let results = [("it".to_string(), smash::reconstruct(&scene, &options).unwrap())];
+        let report = smash::report::report(&scene, &results, None, None).unwrap();
+        assert_eq!(report.models[0].is_beyond_chance, is_beyond);
     }
 }
 

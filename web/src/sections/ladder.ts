@@ -70,7 +70,7 @@ export function ladder(improvement: Improvement): Child[] {
 
 function row(rung: Rung): Child[] {
   return [
-    !rung.added ? startInWords(rung) : `+ ${rung.added}`,
+    rung.added ? added(rung.added, rung.indistinguishable_from ?? []) : startInWords(rung),
     pValue(rung.p_value),
     length(rung.position_rmse),
     length(rung.heldout_position_rmse),
@@ -79,6 +79,12 @@ function row(rung: Rung): Child[] {
     significant(rung.mass_ratio, 4),
     significant(rung.restitution, 4),
   ];
+}
+
+function added(effect: string, lookAlikes: string[]): Child {
+  if (lookAlikes.length === 0) return `+ ${effect}`;
+  const hint = element('span', { class: 'hint' }, ` can’t be told from ${lookAlikes.join(' or ')}`);
+  return element('span', {}, `+ ${effect}`, hint);
 }
 
 function startInWords(rung: Rung): string {

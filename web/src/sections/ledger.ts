@@ -3,11 +3,11 @@
 import { element } from '../element';
 import type { Child } from '../element';
 import { NONE, significant, tuple, withDeviation } from '../numbers';
-import type { LedgerEntry, LedgerLine, Model } from '../report';
+import type { LedgerEntry, LedgerLine, Model, Report } from '../report';
 import { table } from '../table';
 import { quantityInWords } from '../words';
 
-export function ledger(model: Model): Child[] {
+export function ledger(report: Report, model: Model): Child[] {
   const { about, lines } = model.residuals.ledger;
   let last: string | null | undefined = '';
   const rows = lines.map((line): Child[] => {
@@ -30,8 +30,7 @@ export function ledger(model: Model): Child[] {
     element(
       'p',
       { class: 'hint' },
-      `Angular momentum is about ${tuple(about)} m. One impulse at one point keeps both momenta of all together, ` +
-        'and about that point each body’s own angular momentum. The energy lost is the restitution’s.',
+      `Angular momentum is about ${tuple(about)} m. ${isAlone(lines) ? wentInto(report) : KEPT} The energy lost is the restitution’s.`,
     ),
     table(
       'The books: before, after, and the difference, per kg of the first body',
@@ -48,6 +47,20 @@ export function ledger(model: Model): Child[] {
       'ledger',
     ),
   ];
+}
+
+const KEPT =
+  'One impulse at one point keeps both momenta of all together, and about that point each body’s own angular momentum.';
+
+/** There are no lines of all together. */
+function isAlone(lines: LedgerLine[]): boolean {
+  return lines.every((line) => typeof line.body === 'string');
+}
+
+/** A lone body's momentum changes by whatever it hit. */
+function wentInto({ scene }: Report): string {
+  const hit = scene.plane ? `the plane, ${scene.plane.name}` : 'a body that isn’t in the scene';
+  return `The change of momentum and angular momentum went into what it hit: ${hit}.`;
 }
 
 /** Whether nothing changed but the last digits that a computer has. */

@@ -2,8 +2,9 @@
 
 import { element } from '../element';
 import type { Child } from '../element';
-import { angle, length, NONE, significant, tuple, withDeviation } from '../numbers';
-import type { Quantity, QuantityEntry, Report } from '../report';
+import { angle, decimalsFor, DEGREES, fixed, length, NONE, significant } from '../numbers';
+import type { Maybe } from '../numbers';
+import type { Difference, Quantity, QuantityEntry, Report } from '../report';
 import { table } from '../table';
 import { quantityInWords } from '../words';
 
@@ -41,7 +42,7 @@ export function sideBySide(report: Report): Child[] {
   ];
   return [
     table(
-      'Results side by side; differences are from the first, in σ where one has a deviation',
+      'Results side by side; differences are from the first: later minus first, of vectors the length, of orientations the angle; in σ where one has a deviation',
       columns,
       [...errors, ...told.map(row)],
       'side-by-side',
@@ -56,19 +57,45 @@ export function sideBySide(report: Report): Child[] {
 
 function row(quantity: Quantity): Child[] {
   const { body, words } = quantityInWords(quantity.quantity);
+  const decimals = decimalsOf(quantity);
   return [
     body === null ? words : `${body}: ${words}`,
     quantity.unit,
-    ...quantity.entries.map(entry),
-    ...quantity.differences.map(
-      (difference) =>
-        significant(difference.size) +
-        (typeof difference.in_sigma === 'number' ? ` (${significant(difference.in_sigma, 2)} σ)` : ''),
-    ),
+    ...quantity.entries.map((one) => entry(one, decimals)),
+    ...quantity.differences.map((one) => difference(one, quantity.difference_unit, decimals)),
   ];
 }
 
-function entry({ value, std, reason }: QuantityEntry): Child {
+/** The same for all results, lest rounding hide how they differ: two digits of the least deviation. */
+function decimalsOf({ entries }: Quantity): number {
+  const MOST = 6;
+  const stds = entries.flatMap(({ std }) => std).filter((std) => typeof std === 'number' && std > 0);
+  if (stds.length > 0) return Math.min(decimalsFor(0, Math.min(...(stds as number[]))), MOST);
+  return entries.every(({ value }) => !value || value.length === 1) ? 4 : 3;
+}
+
+function entry({ value, std, reason }: QuantityEntry, decimals: number): Child {
   if (!value) return element('span', { title: reason }, NONE);
-  return value.length === 1 ? withDeviation(value[0], std[0]) : tuple(value);
+  const numbers = value.map((one) => number(one, decimals));
+  if (numbers.length > 1) return `(${numbers.join(', ')})`;
+  return typeof std[0] === 'number' ? `${numbers[0]} ± ${number(std[0], decimals)}` : numbers[0];
+}
+
+/** A degree is about a fiftieth of a radian. */
+const FEWER_IN_DEGREES = 2;
+
+function difference(
+  { difference, size, in_sigma }: Difference,
+  unit: Maybe<string>,
+  decimals: number,
+): string {
+  if (!difference || typeof size !== 'number') return NONE;
+  const far = typeof in_sigma === 'number' ? ` (${number(in_sigma, 1)} σ)` : '';
+  if (unit === 'rad') return `${number(size * DEGREES, Math.max(decimals - FEWER_IN_DEGREES, 2))}°${far}`;
+  if (difference.length > 1) return number(size, decimals) + far;
+  return `${difference[0] > 0 ? '+' : ''}${number(difference[0], decimals)}${far}`;
+}
+
+function number(value: number, decimals: number): string {
+  return Math.abs(value) < 1e5 ? fixed(value, decimals) : significant(value);
 }

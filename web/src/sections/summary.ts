@@ -63,6 +63,17 @@ function fit(report: Report, model: Model): FitInWords {
   if (result.flags.includes('poor_fit') || isStructured) {
     return { words: `The model misses the measured poses by more than noise: ${size}.`, isGood: false };
   }
+  // A flag takes residuals of twice the noise; what is beyond chance is worth a word before.
+  const reduced = result.fit.reduced_chi2;
+  if (model.is_beyond_chance && typeof reduced === 'number') {
+    const times = significant(Math.sqrt(reduced));
+    return {
+      words:
+        `The model misses the measured poses by ${size}. ` +
+        `The residuals are ${times} times as large as the stated noise, which is beyond chance.`,
+      isGood: null,
+    };
+  }
   if (structure.length === 0) {
     return { words: `The model misses the measured poses by ${size}.`, isGood: null };
   }
