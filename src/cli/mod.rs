@@ -96,7 +96,7 @@ pub fn main() -> ExitCode {
 fn usage_error(kind: clap::error::ErrorKind, problem: &str) -> ! {
     let mut program = Arguments::command();
     program.build();
-    let typed = std::env::args().nth(1).unwrap_or_default();
+    let typed = std::env::args_os().nth(1).unwrap_or_default();
     let command = match program.find_subcommand(&typed) {
         Some(command) => &mut command.clone(),
         None => &mut program,

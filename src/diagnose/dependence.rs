@@ -4,10 +4,17 @@
 
 use std::ops::Range;
 
+use crate::bridge::refined::ffi::RefinedPose;
 use crate::reconstruct::refined::Fitted;
 
 /// Shorter series show no waves.
 const SHORTEST: usize = 8;
+
+/// Schwarz's criterion of a model with a gain of `delta_chi2` and the usual `bic`, where the gain counts
+/// for less by `inflation`; the penalty for its parameters stays.
+pub(super) fn quasi_bic(bic: f64, delta_chi2: f64, inflation: f64) -> f64 {
+    bic + delta_chi2 * (1.0 - 1.0 / inflation)
+}
 
 /// The factor by which χ² exceeds that of as much independent noise, at least 1: the reduced χ², where
 /// the noise is stated, times the number of neighbours that say the same.
@@ -23,20 +30,18 @@ pub(super) fn inflation(fitted: &Fitted) -> f64 {
 /// The mean of all flights' and coordinates' correlation lengths, by their squares.
 fn waves(fitted: &Fitted) -> f64 {
     let residuals = &fitted.best().solution.residuals;
+    let poses: Vec<&RefinedPose> =
+        fitted.refined.bodies.iter().flat_map(|body| &body.poses).collect();
     let (mut lengths, mut squares) = (0.0, 0.0);
     for flight in flights(fitted) {
         for axis in 0..6 {
-            let series = residuals[flight.clone()].iter().map(|residual| match axis {
-                0..3 => residual.position_m[axis],
-                _ => residual.turn_rad[axis - 3],
+            // In units of each pose's noise, so that positions and turns count alike.
+            let series = flight.clone().map(|index| match axis {
+                0..3 => residuals[index].position_m[axis] / poses[index].position_std_m,
+                _ => residuals[index].turn_rad[axis - 3] / poses[index].orientation_std_rad,
             });
             let series: Vec<f64> = series.collect();
-            // In units of the noise, so that positions and turns count alike.
-            let noise = match axis {
-                0..3 => fitted.noise.value.position,
-                _ => fitted.noise.value.orientation,
-            };
-            let square: f64 = series.iter().map(|x| (x / noise).powi(2)).sum();
+            let square: f64 = series.iter().map(|x| x * x).sum();
             if series.len() >= SHORTEST && square > 0.0 {
                 lengths += square * correlation_length(&series);
                 squares += square;
@@ -59,8 +64,8 @@ fn flights(fitted: &Fitted) -> Vec<Range<usize>> {
     flights
 }
 
-/// 1 + 2 Σ ρ, summed as long as neighbouring pairs of correlations stay positive (Geyer, *Practical
-/// Markov Chain Monte Carlo*, 1992).
+/// 1 + 2 Σ ρ, summed as long as pairs of neighbouring correlations, from the first lag on, stay positive
+/// (after Geyer, *Practical Markov Chain Monte Carlo*, 1992, who pairs from lag 0).
 fn correlation_length(series: &[f64]) -> f64 {
     let at = |lag: usize| -> f64 { series.iter().zip(&series[lag..]).map(|(a, b)| a * b).sum() };
     let own = at(0);

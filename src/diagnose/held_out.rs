@@ -11,7 +11,8 @@ use crate::reconstruct::refined::{Fitted, linearised};
 
 /// Blocks that a flight is cut into.
 const BLOCKS: usize = 3;
-/// More poses of a long film make no block: its covariance is dense.
+/// Of long films more poses make no block: what lies far from all others is foretold by nobody, and the
+/// time that a block takes grows with its size.
 const LARGEST_BLOCK: usize = 60;
 /// The least precision, 1/σ², of a prediction: what is foretold to no better than some four times the
 /// noise is judged by the rounding of the fit and the bend of the model, not by the effect.
@@ -39,6 +40,8 @@ struct Row {
     is_position: bool,
     /// m, or rad of an orientation.
     std: f64,
+    /// Of the pose's noise over that of the others.
+    noise_scale: f64,
 }
 
 /// [`HeldOut::position_rmse_m`] of a fitted model by itself.
@@ -68,7 +71,8 @@ impl HeldOut {
         Some(HeldOut { blocks })
     }
 
-    /// Root mean square of the positions' misses in m, weighted by how surely each is predicted.
+    /// Root mean square of the positions' misses in m, weighted by how surely each is predicted and by how
+    /// noisy it is.
     pub(crate) fn position_rmse_m(&self) -> f64 {
         let (mut weights, mut squares_m2) = (0.0, 0.0);
         for block in &self.blocks {
@@ -76,7 +80,8 @@ impl HeldOut {
                 let part = |(precision, direction): &(f64, DVector<f64>)| {
                     (precision - 1.0) * direction[place].powi(2)
                 };
-                let weight = 1.0 + block.fitted.iter().map(part).sum::<f64>();
+                let sure = 1.0 + block.fitted.iter().map(part).sum::<f64>();
+                let weight = sure / row.noise_scale.powi(2);
                 weights += weight;
                 squares_m2 += weight * (row.std * block.missed[place]).powi(2);
             }
@@ -151,7 +156,12 @@ fn blocks(fitted: &Fitted, collision_time_s: f64) -> Vec<Vec<Row>> {
                         } else {
                             pose.orientation_std_rad
                         };
-                        rows.push(Row { index: index + row, is_position, std });
+                        rows.push(Row {
+                            index: index + row,
+                            is_position,
+                            std,
+                            noise_scale: pose.noise_scale,
+                        });
                     }
                     index += if oriented { 6 } else { 3 };
                 }

@@ -1,5 +1,6 @@
 //! Probabilities of the candidates, and which of them can't be told apart.
 
+use super::dependence::quasi_bic;
 use super::{Candidate, OtherLaw};
 
 /// Odds of a hundred and fifty to one and more tell two candidates apart, very strong evidence (Kass &
@@ -13,12 +14,17 @@ pub(super) fn probabilities(
     other_laws: &[&OtherLaw],
     inflation: f64,
 ) -> (Vec<f64>, f64) {
-    let all = candidates.iter().map(|one| one.bic).chain(other_laws.iter().map(|law| law.bic));
+    let of_laws = other_laws.iter().map(|law| quasi_bic(law.bic, law.delta_chi2, inflation));
+    let all = candidates.iter().map(|one| quasi(one, inflation)).chain(of_laws);
     let least = all.clone().fold(0.0, f64::min);
-    let weight = |bic: f64| (-0.5 * (bic - least) / inflation).exp();
+    let weight = |bic: f64| (-0.5 * (bic - least)).exp();
     let none = weight(0.0);
     let total: f64 = none + all.map(weight).sum::<f64>();
-    (candidates.iter().map(|c| weight(c.bic) / total).collect(), none / total)
+    (candidates.iter().map(|c| weight(quasi(c, inflation)) / total).collect(), none / total)
+}
+
+fn quasi(candidate: &Candidate, inflation: f64) -> f64 {
+    quasi_bic(candidate.bic, candidate.evidence.delta_chi2, inflation)
 }
 
 /// The places of the candidates that the data can't tell from number `index`, where differences count
@@ -28,7 +34,7 @@ pub(crate) fn look_alikes(candidates: &[Candidate], index: usize, inflation: f64
     let is_alike = |other: &usize| {
         *other != index
             && candidates[*other].stands_out() == own.stands_out()
-            && (candidates[*other].bic - own.bic).abs() < TELLS_APART * inflation
+            && (quasi(&candidates[*other], inflation) - quasi(own, inflation)).abs() < TELLS_APART
     };
     (0..candidates.len()).filter(is_alike).collect()
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::dependence::inflation;
+use super::dependence::{inflation, quasi_bic};
 use super::diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, ThrowEstimate, Verdict,
 };
@@ -17,6 +17,7 @@ use crate::compare::{ChannelTest, channels};
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{self, Instance};
 use crate::reconstruct::{Number, ParameterEstimate, RefinedOptions};
+use crate::words::quoted;
 use crate::{Error, ErrorKind, Result, Scene};
 
 /// Candidates that are told even if they don't stand out.
@@ -56,9 +57,10 @@ pub fn diagnose_throws(
         Some(rest) if stays_structured => mean_inflation(rest),
         _ => 1.0,
     };
-    let least = candidates.iter().map(|c| c.bic).fold(0.0, f64::min);
-    let weight = |bic: f64| (-0.5 * (bic - least) / inflation).exp();
-    let total: f64 = weight(0.0) + candidates.iter().map(|c| weight(c.bic)).sum::<f64>();
+    let least = candidates.iter().map(|c| quasi(c, inflation)).fold(0.0, f64::min);
+    let weight = |bic: f64| (-0.5 * (bic - least)).exp();
+    let total: f64 =
+        weight(0.0) + candidates.iter().map(|c| weight(quasi(c, inflation))).sum::<f64>();
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     // The verdict is about the best that can be flown: it is named first.
     let is_best = |index: usize| best.is_some_and(|best| std::ptr::eq(best, &candidates[index]));
@@ -68,7 +70,7 @@ pub fn diagnose_throws(
         .iter()
         .take(told)
         .filter_map(|&index| {
-            let probability = weight(candidates[index].bic) / total;
+            let probability = weight(quasi(&candidates[index], inflation)) / total;
             report(&throws, &candidates, index, (probability, inflation))
         })
         .collect();
@@ -98,6 +100,7 @@ pub(crate) fn throws<'a>(scenes: &'a [Scene], options: &RefinedOptions) -> Resul
     if scenes.is_empty() {
         return Err(Error::new(ErrorKind::Invalid, "there is no scene").mend("give one or more"));
     }
+    refuse_copies(scenes)?;
     scenes
         .par_iter()
         .map(|scene| {
@@ -106,6 +109,22 @@ pub(crate) fn throws<'a>(scenes: &'a [Scene], options: &RefinedOptions) -> Resul
             Ok(Throw { scene, fitted })
         })
         .collect()
+}
+
+/// The same poses twice would count as two throws that agree.
+fn refuse_copies(scenes: &[Scene]) -> Result<()> {
+    let mut known: Vec<(String, &str)> = Vec::new();
+    for scene in scenes {
+        let fingerprint = scene.fingerprint();
+        if let Some((_, other)) = known.iter().find(|(known, _)| *known == fingerprint) {
+            let problem =
+                format!("{} and {} hold the same poses", quoted(other), quoted(scene.name()));
+            return Err(Error::new(ErrorKind::Invalid, problem)
+                .mend("give each throw once: a copy would count as further evidence"));
+        }
+        known.push((fingerprint, scene.name()));
+    }
+    Ok(())
 }
 
 /// The best of the candidates that stand out and that every throw can be flown with, and the throws
@@ -206,6 +225,10 @@ fn report(
     })
 }
 
+fn quasi(candidate: &PooledCandidate, inflation: f64) -> f64 {
+    quasi_bic(candidate.bic, candidate.delta, inflation)
+}
+
 /// The candidates that the throws can't tell from `candidate`, where differences count for less by
 /// `inflation`.
 pub(crate) fn alike<'a>(
@@ -216,7 +239,7 @@ pub(crate) fn alike<'a>(
     candidates.iter().filter(move |other| {
         other.label != candidate.label
             && other.stands_out() == candidate.stands_out()
-            && (other.bic - candidate.bic).abs() < TELLS_APART * inflation
+            && (quasi(other, inflation) - quasi(candidate, inflation)).abs() < TELLS_APART
     })
 }
 

@@ -8,8 +8,8 @@ use crate::files::sha256;
 impl Scene {
     /// The SHA-256 of all that the scene says of the collision: bodies with their shapes, poses and
     /// times in order, noise, gravity, frame rate, the camera's centre and the plane, each number to
-    /// nine digits. Neither white space, the order of fields, `frame` in place of `time` nor the rounding
-    /// of a quaternion changes it, nor do the scene's name, its `source` and what else is told of the
+    /// nine digits. Neither white space, the order of fields, `frame` in place of `time` nor a quaternion's
+    /// sign changes it, and rounding beyond those digits hardly ever does, nor do the scene's name, its `source` and what else is told of the
     /// camera.
     pub fn fingerprint(&self) -> String {
         let mut file = self.to_file();
@@ -17,6 +17,13 @@ impl Scene {
         file.source = None;
         if let Some(camera) = &mut file.camera {
             camera.more.clear();
+        }
+        // q and -q are the same.
+        let poses = file.bodies.iter_mut().filter_map(|body| body.observations.as_mut()).flatten();
+        for q in poses.filter_map(|pose| pose.orientation.as_mut()) {
+            if q.iter().find(|x| **x != 0.0).is_some_and(|x| *x < 0.0) {
+                q.iter_mut().for_each(|x| *x = -*x);
+            }
         }
         let tree = serde_json::to_value(&file).expect("plain numbers and strings have a JSON form");
         let mut text = String::new();

@@ -49,8 +49,10 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // One that stays does no harm.
-        let _ = std::fs::remove_file(&self.path);
+        // One that stays does no harm; a file of somebody's with something in it isn't ours.
+        if std::fs::metadata(&self.path).is_ok_and(|found| found.len() == 0) {
+            let _ = std::fs::remove_file(&self.path);
+        }
     }
 }
 

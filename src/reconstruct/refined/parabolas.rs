@@ -38,7 +38,7 @@ pub(super) struct Parabolas {
     splits: Vec<Vec<usize>>,
 }
 
-/// Sums over a body's first poses; entry n is of the first n. Times count from the origin, y is
+/// Sums over a body's first poses, each weighted by 1 over its noise scale squared; entry n is of the first n. Times count from the origin, y is
 /// p − ½ g t² from the first pose's.
 struct Sums {
     times_s: Vec<f64>,
@@ -207,14 +207,16 @@ impl Sums {
         let offset = body.observations.first().map_or(Vector3::zeros(), |seen| straight(seen).1);
         let mut rows = vec![Sum::default()];
         let mut sum = Sum::default();
-        for (t, y) in body.observations.iter().map(straight) {
+        for seen in &body.observations {
+            let (t, y) = straight(seen);
             let y = y - offset;
-            sum.n += 1.0;
-            sum.t += t;
-            sum.tt += t * t;
-            sum.y += y;
-            sum.ty += t * y;
-            sum.yy += y.norm_squared();
+            let weight = seen.noise_scale.powi(-2);
+            sum.n += weight;
+            sum.t += weight * t;
+            sum.tt += weight * t * t;
+            sum.y += weight * y;
+            sum.ty += weight * t * y;
+            sum.yy += weight * y.norm_squared();
             rows.push(sum);
         }
         let times_s = body.observations.iter().map(|seen| seen.time_s - origin_s).collect();

@@ -51,6 +51,21 @@ fn a_pose_of_much_noise_counts_for_nothing() {
     assert_eq!(times(&scaled), times(&without));
 }
 
+/// Nor does it lead the search astray, however far off it is.
+#[test]
+fn a_pose_of_much_noise_far_away_counts_for_nothing() {
+    let mut wrong = with_noise_stated(noisy());
+    let pose = poses(&mut wrong).nth(2).unwrap();
+    pose.position[0] += 5.0;
+    pose.noise_scale = Some(1000.0);
+    let scaled = solve(&wrong);
+    wrong.bodies[0].observations.as_mut().unwrap().remove(2);
+    let without = solve(&wrong);
+    let off = (mass_ratio(&scaled) - mass_ratio(&without)).abs() / deviation(&without);
+    // 2.5 of its own deviations: what it still pulls is far less than one of the fit's.
+    assert!(off < 0.1, "{off}");
+}
+
 /// Whether the noise is called 2 mm, or 1 mm of poses that are all twice as noisy, is a word.
 #[test]
 fn all_poses_twice_as_noisy_is_twice_the_noise() {

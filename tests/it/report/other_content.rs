@@ -112,6 +112,18 @@ fn an_older_result_is_known_by_its_error() {
     }
 }
 
+/// q and -q are the same pose.
+#[test]
+fn the_sign_of_quaternions_is_no_other_content() {
+    let scene = Scene::read(format!("{ROOT}/scenes/boxes.json")).unwrap();
+    let mut file = scene.to_file();
+    for pose in file.bodies.iter_mut().filter_map(|body| body.observations.as_mut()).flatten() {
+        let turned = pose.orientation.as_mut().unwrap();
+        turned.iter_mut().for_each(|x| *x = -*x);
+    }
+    assert_eq!(Scene::from_file(file).unwrap().fingerprint(), scene.fingerprint());
+}
+
 /// By the error alone the results of all methods are known for their own.
 #[test]
 fn no_older_result_of_the_scenes_is_taken_for_anothers() {
