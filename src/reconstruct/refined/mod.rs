@@ -66,14 +66,6 @@ pub(crate) fn fit(scene: &Scene, options: &RefinedOptions) -> Result<Fitted> {
     let mut fitted = Fitted::base(scene, options.tilt_std_rad, options.loss)?;
     for request in &options.effects {
         for instance in instances(scene, request)? {
-            let is_known = |acting: &Acting| {
-                acting.instance.effect == instance.effect && acting.instance.body == instance.body
-            };
-            if !instance.is_of_a_moment() && fitted.acting.iter().any(is_known) {
-                let problem = format!("{} is given twice", instance.label(scene));
-                return Err(Error::new(ErrorKind::Invalid, problem)
-                    .mend("give it once: poses can't tell one from the other"));
-            }
             fitted = fitted.with(scene, &instance)?;
         }
     }

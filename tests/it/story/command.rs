@@ -175,14 +175,9 @@ fn what_is_broken_is_told_and_nothing_is_written() {
                 [law]\nacceleration = \"-k * v\"\n";
     fs::write(folder.path().join("namesake.toml"), drag).unwrap();
     fs::copy(folder.path().join("a throw.json"), folder.path().join("copy.json")).unwrap();
-    let cases: [(&[&str], i32, &str); 12] = [
+    let cases: [(&[&str], i32, &str); 11] = [
         (&["a throw.json", "copy.json"], 1, "hold the same poses"),
         (&["a throw.json", "--try", "./namesake.toml"], 1, "give yours another name"),
-        (
-            &["a throw.json", "--with", "quadratic_drag", "--with", "quadratic_drag@ball"],
-            1,
-            "twice",
-        ),
         (&["broken.json"], 1, "broken.json"),
         (&["nowhere.json"], 1, "nowhere.json"),
         (&["a throw.json", "--try", "./tehter.toml"], 1, "tehter.toml"),
