@@ -6,7 +6,7 @@ use smash::effect::{EffectRequest, find};
 use smash::reconstruct::Options;
 use smash::scene::{Camera, Noise, SceneFile};
 use smash::simulate::{
-    EffectSpec, NoiseSpec, RegularSampling, Sampling, Simulation, SimulationSpec, add_noise,
+    EffectSpec, NoiseSpec, Sampling, Simulation, SimulationSpec, add_noise,
     simulate,
 };
 use smash::{Error, ErrorKind, Result, Scene};
@@ -18,18 +18,18 @@ use crate::strength::{Hidden, acted_on};
 /// How often the bodies are seen.
 #[derive(Clone, Copy)]
 pub enum Regime {
-    /// Every frame, 60 poses of each body.
+    /// Every frame, 48 to 72 poses of each body.
     Dense,
-    /// 20 poses.
+    /// 20 poses, unevenly.
     Medium,
-    /// 8 poses.
+    /// 9 poses, unevenly.
     Sparse,
 }
 
 /// What a base fit to the exact poses must miss them by, in χ²: below that nobody can be sure.
-const LEAST_LAMBDA: f64 = 40.0;
+const LEAST_LAMBDA: f64 = 60.0;
 /// Beyond that an effect is plain to see.
-const LARGEST_LAMBDA: f64 = 1500.0;
+const LARGEST_LAMBDA: f64 = 2000.0;
 /// Some effects don't show on some bodies, as a ball's inertia: then another scene is drawn.
 const MOST_DRAWS: usize = 200;
 
@@ -96,18 +96,29 @@ fn bare(effects: &[&str], regime: Regime, random: &mut ChaCha8Rng) -> Simulation
     spec
 }
 
-/// So many poses on each side, nearest the collision.
+/// A film of some frames on each side of the collision, and one of each of its parts.
 fn sampling(spec: &SimulationSpec, regime: Regime, random: &mut ChaCha8Rng) -> Sampling {
-    let (interval, poses) = match regime {
-        Regime::Dense => (1, 30),
-        Regime::Medium => (random.random_range(3..=4), 10),
-        Regime::Sparse => (random.random_range(7..=9), 4),
+    let [before, after] = [(); 2].map(|()| random.random_range(24..=36));
+    let first_share = match regime {
+        Regime::Dense => before,
+        Regime::Medium => random.random_range(8..=12),
+        Regime::Sparse => random.random_range(4..=5),
     };
-    let regular = RegularSampling { interval, frame_count: 90, gap: Some(interval) };
+    let second_share = match regime {
+        Regime::Dense => after,
+        Regime::Medium => 20 - first_share,
+        Regime::Sparse => 9 - first_share,
+    };
     let collision_frame = spec.collision.time * spec.fps.unwrap_or(60.0);
-    let farthest = f64::from(interval * poses);
-    let frames = regular.frame_numbers(collision_frame).into_iter().map(f64::from);
-    Sampling::Frames(frames.filter(|frame| (frame - collision_frame).abs() < farthest).collect())
+    let (last_before, first_after) =
+        (collision_frame.ceil() as u32 - 1, collision_frame.floor() as u32 + 1);
+    let mut one_of_each = |first: u32, frames: u32, poses: u32| -> Vec<u32> {
+        let part = |index: u32| first + index * frames / poses;
+        (0..poses).map(|index| random.random_range(part(index)..part(index + 1))).collect()
+    };
+    let mut frames = one_of_each(last_before + 1 - before, before, first_share);
+    frames.extend(one_of_each(first_after, after, second_share));
+    Sampling::Frames(frames.into_iter().map(f64::from).collect())
 }
 
 /// The exact scene with all effects, each strong enough to be found alone, and not found without.
