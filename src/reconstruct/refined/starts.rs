@@ -24,7 +24,7 @@ const HOPELESS: f64 = 40.0;
 /// Costs that differ by less, of their size, are of one optimum.
 const SAME: f64 = 1e-5;
 /// Points of a scan that are tried.
-const MOST_POINTS: usize = 2;
+const MOST_POINTS: usize = 3;
 /// Gaps that a scan looks into.
 const MOST_GAPS: usize = 16;
 /// Delays of a time scan, in frames.
