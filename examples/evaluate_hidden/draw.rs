@@ -6,8 +6,7 @@ use smash::effect::{EffectRequest, find};
 use smash::reconstruct::Options;
 use smash::scene::{Camera, Noise, SceneFile};
 use smash::simulate::{
-    EffectSpec, NoiseSpec, Sampling, Simulation, SimulationSpec, add_noise,
-    simulate,
+    EffectSpec, NoiseSpec, Sampling, Simulation, SimulationSpec, add_noise, simulate,
 };
 use smash::{Error, ErrorKind, Result, Scene};
 

@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use super::Leftover;
 use crate::bridge::refined::ffi::RefinedPose;
 use crate::reconstruct::refined::Fitted;
 
@@ -12,8 +13,13 @@ const SHORTEST: usize = 8;
 
 /// Schwarz's criterion of a model with a gain of `delta_chi2` and the usual `bic`, where the gain counts
 /// for less by `inflation`; the penalty for its parameters stays.
-pub(super) fn quasi_bic(bic: f64, delta_chi2: f64, inflation: f64) -> f64 {
+pub(crate) fn quasi_bic(bic: f64, delta_chi2: f64, inflation: f64) -> f64 {
     bic + delta_chi2 * (1.0 - 1.0 / inflation)
+}
+
+/// The factor by which differences count for less beside a fit that leaves `rest`.
+pub(crate) fn inflation_of(fitted: &Fitted, rest: &Leftover) -> f64 {
+    if rest.is_structured() { inflation(fitted) } else { 1.0 }
 }
 
 /// The factor by which χ² exceeds that of as much independent noise, at least 1: the reduced χ², where
@@ -76,6 +82,13 @@ fn correlation_length(series: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn gains_count_for_less_and_parameters_for_as_much() {
+        let (gain, penalty) = (100.0, 12.0);
+        assert_eq!(quasi_bic(penalty - gain, gain, 1.0), penalty - gain);
+        assert_eq!(quasi_bic(penalty - gain, gain, 10.0), penalty - gain / 10.0);
+    }
 
     #[test]
     fn what_comes_in_waves_says_less_than_what_does_not() {

@@ -118,6 +118,7 @@ pub(super) fn free(kind: Kind, degree: usize) -> Effect {
     let unit = |power: usize| match kind {
         Kind::Acceleration => format!("m/s^{}", 2 + power),
         Kind::Torque => format!("m^2/s^{}", 2 + power),
+        Kind::Position => format!("m/s^{power}"),
     };
     let names = |side: &str| (0..=degree).map(|power| format!("{side}{power}")).collect::<Vec<_>>();
     let side = |side: &str| {
@@ -136,10 +137,12 @@ fn hook(kind: Kind) -> &'static str {
     match kind {
         Kind::Acceleration => "acceleration",
         Kind::Torque => "torque",
+        Kind::Position => "position",
     }
 }
 
-fn law_of(hook: &str, law: &str, parameters: &[(&str, &str, usize)]) -> Effect {
+/// The effect with this law, its parameters with unit and number of components, all 0 at the null.
+pub(super) fn law_of(hook: &str, law: &str, parameters: &[(&str, &str, usize)]) -> Effect {
     let scope = if law.contains('W') { "scene" } else { "body" };
     let turns = ["rotate", "w", "L"].iter().any(|word| law.contains(word)) || hook == "torque";
     let needs = if turns { "[\"orientation\"]" } else { "[]" };
@@ -158,6 +161,15 @@ fn law_of(hook: &str, law: &str, parameters: &[(&str, &str, usize)]) -> Effect {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effect::catalogue;
+
+    #[test]
+    fn what_a_form_holds_is_in_the_catalogue() {
+        let held: Vec<&str> =
+            forms().iter().filter_map(|form| form.beyond).flatten().copied().collect();
+        let is_known = |name: &&str| catalogue().iter().any(|effect| effect.name == **name);
+        assert!(!held.is_empty() && held.iter().all(is_known), "{held:?}");
+    }
 
     #[test]
     fn all_forms_are_laws() {

@@ -18,6 +18,7 @@ mod leftover;
 mod pooled;
 mod ranking;
 mod rivals;
+mod swing;
 mod throws;
 mod unexplained;
 mod verdict;
@@ -31,14 +32,15 @@ pub use throws::diagnose_throws;
 pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use candidates::{Candidate, all_candidates};
+pub(crate) use dependence::{inflation_of, quasi_bic};
 pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::{HeldOut, held_out_rmse_m};
 pub(crate) use leftover::Leftover;
 pub(crate) use pooled::{Throw, pooled};
-pub(crate) use ranking::{TELLS_APART, look_alikes};
+pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
 pub(crate) use rivals::rivals;
-pub(crate) use throws::{alike, best_of, instances, looks, mean_inflation, reduced_chi2, throws};
+pub(crate) use throws::{alike, instances, looks, put_best_first, reduced_chi2, throws};
 
 use rayon::prelude::*;
 
@@ -74,7 +76,7 @@ pub fn diagnose(
     verdict::diagnosis(scene, &fitted, instances, candidates)
 }
 
-/// All candidates that can be fitted, the best explanation first.
+/// All candidates that can be fitted, the best first by Schwarz's criterion.
 pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Vec<Candidate> {
     let before = HeldOut::of(fitted, fitted.collision_time_s());
     // A score test that fails leaves all to be refitted.

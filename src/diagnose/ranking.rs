@@ -1,7 +1,9 @@
 //! Probabilities of the candidates, and which of them can't be told apart.
 
-use super::dependence::quasi_bic;
+use super::dependence::{inflation_of, quasi_bic};
+use super::leftover::Leftover;
 use super::{Candidate, OtherLaw};
+use crate::{Result, Scene};
 
 /// Odds of a hundred and fifty to one and more tell two candidates apart, very strong evidence (Kass &
 /// Raftery, *Bayes Factors*, 1995): the best of some twenty is there by luck, too.
@@ -23,8 +25,31 @@ pub(super) fn probabilities(
     (candidates.iter().map(|c| weight(quasi(c, inflation)) / total).collect(), none / total)
 }
 
-fn quasi(candidate: &Candidate, inflation: f64) -> f64 {
+/// Schwarz's criterion, where differences count for less by `inflation`.
+pub(crate) fn quasi(candidate: &Candidate, inflation: f64) -> f64 {
     quasi_bic(candidate.bic, candidate.evidence.delta_chi2, inflation)
+}
+
+/// The first that stands out.
+pub(super) fn first(candidates: &[Candidate]) -> Option<&Candidate> {
+    candidates.iter().find(|candidate| candidate.stands_out())
+}
+
+/// Puts the most probable first. Returns by how much differences count for less, by what the best fit
+/// leaves over, and what the first leaves over.
+pub(super) fn rank(scene: &Scene, candidates: &mut [Candidate]) -> Result<(f64, Option<Leftover>)> {
+    let left_over = |candidates: &[Candidate]| {
+        first(candidates).map(|first| Leftover::of(scene, &first.fitted)).transpose()
+    };
+    candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
+    let rest = left_over(candidates)?;
+    let Some((first, rest)) = first(candidates).zip(rest) else { return Ok((1.0, None)) };
+    let inflation = inflation_of(&first.fitted, &rest);
+    if inflation == 1.0 {
+        return Ok((inflation, Some(rest)));
+    }
+    candidates.sort_by(|a, b| quasi(a, inflation).total_cmp(&quasi(b, inflation)));
+    Ok((inflation, left_over(candidates)?))
 }
 
 /// The places of the candidates that the data can't tell from number `index`, where differences count

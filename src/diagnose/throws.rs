@@ -39,32 +39,24 @@ pub fn diagnose_throws(
 ) -> Result<Diagnosis> {
     let throws = throws(scenes, options)?;
     let instances = instances(&throws, further)?;
-    let candidates = pooled(&throws, &instances);
+    let mut candidates = pooled(&throws, &instances);
     let (channels, is_structured) = looks(&throws)?;
-    let (best, rest) = best_of(&throws, &candidates).unzip();
-    let stays_structured = match &rest {
-        Some(rest) => looks(rest)?.1,
-        None => false,
-    };
-    let explains = |rest: &Vec<Throw>| misses_m2(rest) < EXPLAINS * misses_m2(&throws);
-    let verdict = match &rest {
-        Some(rest) if !stays_structured || explains(rest) => Verdict::Missing,
+    let best = put_best_first(&throws, &mut candidates)?;
+    let stays_structured = best.as_ref().is_some_and(|best| best.is_structured);
+    let inflation = best.as_ref().map_or(1.0, |best| best.inflation);
+    let explains = |best: &Best| misses_m2(&best.throws) < EXPLAINS * misses_m2(&throws);
+    let verdict = match &best {
+        Some(best) if !stays_structured || explains(best) => Verdict::Missing,
         Some(_) => Verdict::UnknownEffect,
         None if is_structured => Verdict::UnknownEffect,
         None => Verdict::NothingMissing,
-    };
-    let inflation = match &rest {
-        Some(rest) if stays_structured => mean_inflation(rest),
-        _ => 1.0,
     };
     let least = candidates.iter().map(|c| quasi(c, inflation)).fold(0.0, f64::min);
     let weight = |bic: f64| (-0.5 * (bic - least)).exp();
     let total: f64 =
         weight(0.0) + candidates.iter().map(|c| weight(quasi(c, inflation))).sum::<f64>();
     let mut order: Vec<usize> = (0..candidates.len()).collect();
-    // The verdict is about the best that can be flown: it is named first.
-    let is_best = |index: usize| best.is_some_and(|best| std::ptr::eq(best, &candidates[index]));
-    order.sort_by_key(|&index| (!is_best(index), !candidates[index].stands_out()));
+    order.sort_by_key(|&index| (best.is_none() || index > 0, !candidates[index].stands_out()));
     let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
     let reports = order
         .iter()
@@ -127,14 +119,38 @@ fn refuse_copies(scenes: &[Scene]) -> Result<()> {
     Ok(())
 }
 
-/// The best of the candidates that stand out and that every throw can be flown with, and the throws
-/// with it.
-pub(crate) fn best_of<'a, 'b>(
+/// The best of the candidates, and what it makes of the throws.
+pub(crate) struct Best<'a> {
+    /// With it.
+    pub(crate) throws: Vec<Throw<'a>>,
+    /// Whether more than noise is left over.
+    pub(crate) is_structured: bool,
+    /// By how much less differences count because of that.
+    pub(crate) inflation: f64,
+}
+
+/// Puts the most probable of the candidates that stand out, and that every throw can be flown with,
+/// first; `None` where there is none.
+pub(crate) fn put_best_first<'a>(
     throws: &[Throw<'a>],
-    candidates: &'b [PooledCandidate],
-) -> Option<(&'b PooledCandidate, Vec<Throw<'a>>)> {
-    let mut good = candidates.iter().filter(|candidate| candidate.stands_out());
-    good.find_map(|candidate| Some((candidate, with_effect(throws, candidate).ok()?)))
+    candidates: &mut [PooledCandidate],
+) -> Result<Option<Best<'a>>> {
+    let best = |candidates: &mut [PooledCandidate]| {
+        let mut good = (0..candidates.len()).filter(|&index| candidates[index].stands_out());
+        let found =
+            good.find_map(|index| Some((index, with_effect(throws, &candidates[index]).ok()?)));
+        let (index, with) = found?;
+        candidates[..=index].rotate_right(1);
+        Some(with)
+    };
+    let Some(with) = best(candidates) else { return Ok(None) };
+    if !looks(&with)?.1 {
+        return Ok(Some(Best { throws: with, is_structured: false, inflation: 1.0 }));
+    }
+    let inflation = mean_inflation(&with);
+    candidates.sort_by(|a, b| quasi(a, inflation).total_cmp(&quasi(b, inflation)));
+    let Some(throws) = best(candidates) else { return Ok(None) };
+    Ok(Some(Best { is_structured: looks(&throws)?.1, throws, inflation }))
 }
 
 /// The throws with an effect more, with what all of them say of it.
@@ -150,7 +166,7 @@ fn with_effect<'a>(throws: &[Throw<'a>], effect: &PooledCandidate) -> Result<Vec
 }
 
 /// How much less differences count where something is left in the residuals.
-pub(crate) fn mean_inflation(throws: &[Throw]) -> f64 {
+fn mean_inflation(throws: &[Throw]) -> f64 {
     throws.iter().map(|throw| inflation(&throw.fitted)).sum::<f64>() / throws.len() as f64
 }
 
@@ -297,6 +313,11 @@ fn advice(diagnosis: &Diagnosis) -> Vec<String> {
                 "add it to each throw: smash reconstruct SCENE --with {} -o RESULT",
                 best.label()
             ));
+            if diagnosis.stays_structured {
+                advice.push(
+                    "see what is left over in each: diagnose the throws one by one".to_string(),
+                );
+            }
             advice.push("look for more: smash improve SCENE SCENE …".to_string());
         }
         (Verdict::UnknownEffect, _) => advice.push(

@@ -15,16 +15,16 @@ const DEGREES: [usize; 2] = [0, 1];
 /// Forms that are told.
 const MOST_FORMS: usize = 4;
 
-/// An acceleration or a torque that the model lacks.
+/// An acceleration, a torque, or a swing of the tracked point that the model lacks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Unexplained {
     /// The body that it acts on.
     pub body: String,
-    /// `acceleration` in m/s², or `torque` per unit of the body's mass in m²/s².
+    /// `acceleration` in m/s², `torque` per unit of the body's mass in m²/s², or `position` in m.
     pub kind: Kind,
     /// By how much χ² falls with it; as improbable, where the noise is estimated.
     pub delta_chi2: f64,
-    /// Its root mean square over the poses.
+    /// Its root mean square over the poses; of a position about its mean.
     pub rms: f64,
     /// Its mean over the poses, in the world.
     pub mean: [f64; 3],
@@ -40,6 +40,8 @@ pub enum Kind {
     Acceleration,
     /// On the rotation.
     Torque,
+    /// On where the tracked point is beside the body's centre.
+    Position,
 }
 
 /// A simple law that has the shape of what is unexplained.

@@ -1,11 +1,11 @@
 //! From the evidence to an answer.
 
 use super::advice::advice;
-use super::dependence::inflation;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 use super::leftover::Leftover;
-use super::ranking::{TELLS_APART, look_alikes, probabilities};
+use super::ranking::{TELLS_APART, first, look_alikes, probabilities, rank};
 use super::rivals::{OtherLaw, rivals};
+use super::swing::swings;
 use super::unexplained::unexplained;
 use super::words::explanation;
 use super::{Candidate, Goodness, reported, tried};
@@ -26,18 +26,14 @@ pub(super) fn diagnosis(
     scene: &Scene,
     fitted: &Fitted,
     instances: Vec<Instance>,
-    candidates: Vec<Candidate>,
+    mut candidates: Vec<Candidate>,
 ) -> Result<Diagnosis> {
     let result = reported(scene, fitted)?;
     let channels = channels(scene, &result)?;
     let before = Goodness::by(fitted, &channels);
-    let first = candidates.iter().find(|candidate| candidate.stands_out());
-    let rest = first.map(|first| Leftover::of(scene, &first.fitted)).transpose()?;
+    let (inflation, rest) = rank(scene, &mut candidates)?;
+    let first = first(&candidates);
     let stays_structured = rest.as_ref().is_some_and(Leftover::is_structured);
-    let inflation = match first {
-        Some(first) if stays_structured => inflation(&first.fitted),
-        _ => 1.0,
-    };
     // Where the noise isn't known, what is left says little of a second.
     let second = match stays_structured && fitted.has_stated_noise() {
         true => second(scene, &candidates, &instances),
@@ -54,7 +50,9 @@ pub(super) fn diagnosis(
     let (odds, none) = probabilities(&candidates, &weighed, inflation);
     let verdict = match (first, &rest) {
         (Some(first), Some(rest)) => {
-            let bic = second.as_ref().map_or(first.bic, |(bic, _)| bic.min(first.bic));
+            let good = candidates.iter().filter(|candidate| candidate.stands_out());
+            let pair = second.iter().map(|(bic, _)| *bic);
+            let bic = good.map(|candidate| candidate.bic).chain(pair).fold(0.0, f64::min);
             let is_beaten = other_laws.iter().any(|law| law.bic < bic - TELLS_APART);
             other_laws.retain(|law| law.bic < bic + TELLS_APART);
             match is_beaten || (second.is_none() && !explains(first, &before, rest)) {
@@ -65,10 +63,13 @@ pub(super) fn diagnosis(
         _ if before.is_structured => Verdict::UnknownEffect,
         _ => Verdict::NothingMissing,
     };
-    let unexplained = match (verdict, rest) {
+    let mut unexplained = match (verdict, rest) {
         (Verdict::UnknownEffect, _) => unexplained(scene, fitted)?,
         (_, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
     };
+    if stays_structured || verdict == Verdict::UnknownEffect {
+        unexplained.extend(swings(scene, first.map_or(fitted, |first| &first.fitted))?);
+    }
     // What doesn't predict better never comes first.
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     order.sort_by_key(|&index| !candidates[index].stands_out());

@@ -49,14 +49,32 @@ pub(super) fn explanation_of_throws(diagnosis: &Diagnosis, count: usize) -> Stri
         }
         (Verdict::UnknownEffect, _) => format!(
             "Many of the {count} throws are missed by more than their noise, and no effect that they \
-             could share explains it. A body that rolls, slides or lies on another is in no flight: \
-             leave such poses out."
+             could share explains it.{} A body that rolls, slides or lies on another is in no flight: \
+             leave such poses out.",
+            diagnosis.candidates.first().map_or(String::new(), nearest_of_throws)
         ),
         _ => format!(
-            "{count} throws together show nothing that is missing. An effect weaker than the noise \
-             can still be there."
+            "{count} throws together show nothing that is missing.{} An effect weaker than the noise \
+             can still be there.",
+            diagnosis.candidates.first().map_or(String::new(), nearest_of_throws)
         ),
     }
+}
+
+/// A candidate that would stand out, did the throws not scatter so much.
+fn nearest_of_throws(best: &CandidateReport) -> String {
+    let Some(agreement) = best.throws.as_ref().filter(|a| a.p_value.is_some_and(|p| p < 0.01))
+    else {
+        return String::new();
+    };
+    let parameters = parameters(best);
+    format!(
+        " The nearest is {} ({parameters}): it helps (χ² falls by {}), but the throws scatter {} times \
+         more about it than their own errors say, and so few prove nothing: film more of them.",
+        best.label(),
+        significant(best.delta_chi2, 3),
+        significant(agreement.scatter, 2)
+    )
 }
 
 fn nothing(model: &str, diagnosis: &Diagnosis, best: Option<&CandidateReport>) -> String {
@@ -127,6 +145,7 @@ fn leftover(one: &Unexplained) -> String {
     let (what, unit) = match one.kind {
         Kind::Acceleration => ("a further acceleration", "m/s²"),
         Kind::Torque => ("a further torque per unit of its mass", "m²/s²"),
+        Kind::Position => return swing(one),
     };
     let best = one.forms.first().map_or(String::new(), |form| {
         format!(
@@ -137,6 +156,24 @@ fn leftover(one: &Unexplained) -> String {
         )
     });
     format!(" {} feels {what} of {} {unit} (rms){best}.", one.body, significant(one.rms, 2))
+}
+
+/// A tracked point that goes round.
+fn swing(one: &Unexplained) -> String {
+    let how = one.forms.first().map_or(String::new(), |form| {
+        format!(
+            " in {}, as a point does that isn't the centre of a body that turns unseen: try {} with \
+             rate = {} rad/s",
+            form.goes_with,
+            form.law,
+            significant(form.factor, 3)
+        )
+    });
+    format!(
+        " {}'s tracked point is off by {} mm (rms){how}.",
+        one.body,
+        significant(1e3 * one.rms, 2)
+    )
 }
 
 fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -> String {

@@ -3,8 +3,8 @@
 //! superfluous is dropped at the end.
 
 use crate::diagnose::{
-    Candidate, FALSE_ALARM, Goodness, Leftover, TELLS_APART, all_candidates, evidence, look_alikes,
-    rivals, tried,
+    Candidate, FALSE_ALARM, Goodness, Leftover, TELLS_APART, all_candidates, evidence,
+    inflation_of, look_alikes, quasi, quasi_bic, rivals, tried,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{Fitted, Instance, points};
@@ -38,28 +38,35 @@ pub(super) struct Found {
 struct Hypothesis {
     fitted: Fitted,
     steps: Vec<Step>,
+    /// By how much χ² falls from the base's.
+    gain: f64,
     /// Schwarz's criterion against the base; the smaller, the better.
     bic: f64,
 }
 
 /// Climbs from `base` until no effect stands out any more.
 pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]) -> Result<Found> {
-    let mut best = Hypothesis { fitted: base.clone(), steps: Vec::new(), bic: 0.0 };
+    let mut best = Hypothesis { fitted: base.clone(), steps: Vec::new(), gain: 0.0, bic: 0.0 };
     let mut climbing = vec![best.clone()];
     for _ in 0..MOST_EFFECTS {
-        let mut next: Vec<Hypothesis> = Vec::new();
+        let mut ahead = Vec::new();
         for hypothesis in &climbing {
             let instances = all_candidates(scene, &hypothesis.fitted, further)?;
-            let candidates = tried(scene, &hypothesis.fitted, &instances);
+            ahead.push((hypothesis, tried(scene, &hypothesis.fitted, &instances)));
+        }
+        let inflation = inflation(scene, &ahead)?;
+        let mut next: Vec<Hypothesis> = Vec::new();
+        for (hypothesis, candidates) in &mut ahead {
+            candidates.sort_by(|a, b| quasi(a, inflation).total_cmp(&quasi(b, inflation)));
             let good = (0..candidates.len()).filter(|&index| candidates[index].stands_out());
             let good = good.take(HYPOTHESES);
-            next.extend(good.map(|index| hypothesis.extended(scene, &candidates, index)));
+            next.extend(good.map(|index| hypothesis.extended(scene, candidates, index, inflation)));
         }
-        next.sort_by(|a, b| a.bic.total_cmp(&b.bic));
+        next.sort_by(|a, b| a.quasi(inflation).total_cmp(&b.quasi(inflation)));
         next.dedup_by(|a, b| a.is_same_set(b, scene));
         next.truncate(HYPOTHESES);
         let Some(first) = next.first() else { break };
-        if first.bic >= best.bic {
+        if first.quasi(inflation) >= best.quasi(inflation) {
             break;
         }
         best = first.clone();
@@ -78,16 +85,32 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
 }
 
 impl Hypothesis {
-    fn extended(&self, scene: &Scene, candidates: &[Candidate], index: usize) -> Hypothesis {
+    /// With the candidate `index` more, where differences count for less by `inflation`.
+    fn extended(
+        &self,
+        scene: &Scene,
+        candidates: &[Candidate],
+        index: usize,
+        inflation: f64,
+    ) -> Hypothesis {
         let candidate = &candidates[index];
-        let alike = look_alikes(candidates, index, 1.0).into_iter();
+        let alike = look_alikes(candidates, index, inflation).into_iter();
         let step = Step {
             instance: candidate.instance().clone(),
             p_value: candidate.evidence.p_value,
             look_alikes: alike.map(|other| candidates[other].instance().label(scene)).collect(),
         };
         let steps = self.steps.iter().cloned().chain([step]).collect();
-        Hypothesis { bic: self.bic + candidate.bic, fitted: candidate.fitted.clone(), steps }
+        Hypothesis {
+            fitted: candidate.fitted.clone(),
+            steps,
+            gain: self.gain + candidate.evidence.delta_chi2,
+            bic: self.bic + candidate.bic,
+        }
+    }
+
+    fn quasi(&self, inflation: f64) -> f64 {
+        quasi_bic(self.bic, self.gain, inflation)
     }
 
     fn is_same_set(&self, other: &Hypothesis, scene: &Scene) -> bool {
@@ -98,6 +121,18 @@ impl Hypothesis {
             labels
         };
         labels(self) == labels(other)
+    }
+}
+
+/// By how much less differences count on this level of the climb: by what the best fit leaves over.
+fn inflation(scene: &Scene, ahead: &[(&Hypothesis, Vec<Candidate>)]) -> Result<f64> {
+    let all = ahead.iter().flat_map(|(hypothesis, candidates)| {
+        let good = candidates.iter().filter(|candidate| candidate.stands_out());
+        good.map(|candidate| (hypothesis.bic + candidate.bic, &candidate.fitted))
+    });
+    match all.min_by(|(a, _), (b, _)| a.total_cmp(b)) {
+        Some((_, fitted)) => Ok(inflation_of(fitted, &Leftover::of(scene, fitted)?)),
+        None => Ok(1.0),
     }
 }
 
@@ -129,10 +164,11 @@ fn without_superfluous(
         let mut others = best.steps.clone();
         let left_out = others.remove(index);
         let mut without = base.clone();
-        let mut bic = 0.0;
+        let (mut gain, mut bic) = (0.0, 0.0);
         for step in &others {
             let with = without.with(scene, &step.instance)?;
-            bic += bic_of_last(scene, &without, &with);
+            let of_step = of_last(scene, &without, &with);
+            (gain, bic) = (gain + of_step.0, bic + of_step.1);
             without = with;
         }
         let with = without.with(scene, &left_out.instance)?;
@@ -143,17 +179,18 @@ fn without_superfluous(
             index += 1;
         } else {
             dropped.push(left_out.instance.label(scene));
-            best = Hypothesis { fitted: without, steps: others, bic };
+            best = Hypothesis { fitted: without, steps: others, gain, bic };
         }
     }
     Ok((best, dropped))
 }
 
-/// Schwarz's criterion of `with`, which has one effect more than `without`, against that.
-fn bic_of_last(scene: &Scene, without: &Fitted, with: &Fitted) -> f64 {
-    let Some(last) = with.acting.last() else { return 0.0 };
+/// The gain and Schwarz's criterion of `with`, which has one effect more than `without`, against that.
+fn of_last(scene: &Scene, without: &Fitted, with: &Fitted) -> (f64, f64) {
+    let Some(last) = with.acting.last() else { return (0.0, 0.0) };
     let scanned = points(scene, &last.instance).len().max(1);
     let poses = last.instance.is_of_a_pose().then_some(scanned);
     // How many were tried has no part in it. What the data don't depend on costs nothing.
-    evidence(without, with, scanned, 1).map_or(0.0, |evidence| evidence.bic(with.numbers(), poses))
+    evidence(without, with, scanned, 1)
+        .map_or((0.0, 0.0), |evidence| (evidence.delta_chi2, evidence.bic(with.numbers(), poses)))
 }

@@ -3,8 +3,8 @@
 
 use super::{Improvement, Rung};
 use crate::diagnose::{
-    Throw, Verdict, alike, best_of, held_out_rmse_m, instances, looks, mean_inflation, pooled,
-    reduced_chi2, reported, throws,
+    Throw, Verdict, alike, held_out_rmse_m, instances, looks, pooled, put_best_first, reduced_chi2,
+    reported, throws,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
@@ -27,18 +27,19 @@ pub fn improve_throws(
     let mut throws = throws(scenes, options)?;
     let mut ladder = vec![rung(&throws, Vec::new())?];
     for _ in 0..MOST_EFFECTS {
-        let candidates = pooled(&throws, &instances(&throws, further)?);
-        let Some((best, with)) = best_of(&throws, &candidates) else { break };
-        let setting = (0..throws.len()).find_map(|index| best.held(index));
-        let setting = setting.map(|held| with_values(&best.label, &held));
-        let inflation = if looks(&with)?.1 { mean_inflation(&with) } else { 1.0 };
-        let alike = alike(&candidates, best, inflation).map(|other| other.label.clone()).collect();
-        throws = with;
+        let mut candidates = pooled(&throws, &instances(&throws, further)?);
+        let Some(best) = put_best_first(&throws, &mut candidates)? else { break };
+        let added = &candidates[0];
+        let setting = (0..throws.len()).find_map(|index| added.held(index));
+        let setting = setting.map(|held| with_values(&added.label, &held));
+        let alike = alike(&candidates, added, best.inflation);
+        let alike = alike.map(|other| other.label.clone()).collect();
+        throws = best.throws;
         let known = ladder.last().map(|rung: &Rung| rung.with.clone()).unwrap_or_default();
         let with: Vec<String> = known.into_iter().chain(setting).collect();
         ladder.push(Rung {
-            added: Some(best.label.clone()),
-            p_value: Some(best.p_value),
+            added: Some(added.label.clone()),
+            p_value: Some(added.p_value),
             indistinguishable_from: alike,
             ..rung(&throws, with)?
         });

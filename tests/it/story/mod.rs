@@ -7,6 +7,7 @@ mod hidden;
 mod pairs;
 mod strange;
 mod stuck;
+mod swing;
 mod unknown;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};

@@ -76,8 +76,14 @@ function parameters(candidate: Candidate): string {
     .join('; ');
 }
 
+const LEFT_OVER: Record<Unexplained['kind'], { what: string; unit: string }> = {
+  acceleration: { what: 'a force of', unit: 'm/s²' },
+  torque: { what: 'a torque of', unit: 'm²/s² per kg' },
+  position: { what: 'the tracked point is off by', unit: 'm' },
+};
+
 function unexplained(force: Unexplained): HTMLElement {
-  const unit = force.kind === 'torque' ? 'm²/s² per kg' : 'm/s²';
+  const { what, unit } = LEFT_OVER[force.kind];
   const forms = force.forms.map((form): Child[] => [
     form.goes_with,
     `${significant(100 * form.share, 3)} %`,
@@ -90,7 +96,7 @@ function unexplained(force: Unexplained): HTMLElement {
     element(
       'p',
       {},
-      `Left over on ${force.body}: a ${force.kind === 'torque' ? 'torque' : 'force'} of ${significant(force.rms)} ${unit} ` +
+      `Left over on ${force.body}: ${what} ${significant(force.rms)} ${unit} ` +
         `(root mean square), on average ${tuple(force.mean)} ${unit}; χ² would fall by ${significant(force.delta_chi2, 4)}.`,
     ),
     forms.length > 0 &&
