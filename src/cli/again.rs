@@ -1,5 +1,5 @@
 //! The command that makes a result again, from the options that it was made with: the one place that
-//! writes it.
+//! writes it. Of the paper's method it is that of seed 0: only programs can choose another.
 
 use smash::effect::EffectRequest;
 use smash::files::shell_word;
@@ -9,11 +9,16 @@ use smash::reconstruct::{
 
 /// `smash reconstruct SCENE …`. `scene` is a word of the shell.
 pub fn reconstruction(scene: &str, options: &Options) -> String {
+    command("smash reconstruct", scene, options)
+}
+
+/// `start SCENE …`, of a command that takes the same options.
+pub fn command(start: &str, scene: &str, options: &Options) -> String {
     let with = match options {
         Options::Refined(options) => with(&options.effects),
         _ => String::new(),
     };
-    format!("smash reconstruct {scene}{}{with}", flags(options))
+    format!("{start} {scene}{}{with}", flags(options))
 }
 
 /// The options without the effects; each after a space.
@@ -41,7 +46,7 @@ pub fn flags(options: &Options) -> String {
 }
 
 /// The effects, each as a further `--with`.
-pub fn with(effects: &[EffectRequest]) -> String {
+fn with(effects: &[EffectRequest]) -> String {
     effects.iter().map(|effect| format!(" --with {}", shell_word(&effect.to_string()))).collect()
 }
 

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use smash::diagnose::{CandidateReport, Diagnosis};
-use smash::effect::EffectRequest;
 use smash::files::{Output, print_bytes};
-use smash::{Result, Scene, diagnose, diagnose_throws};
+use smash::{Result, diagnose, diagnose_throws};
 
 use super::method::Method;
 use super::table::{aligned, decimals, p_value, probability};
+use super::throws::{further, read_all};
 use super::typed::Typed;
 
 /// Finds which physical effect the model lacks, ranked, with the evidence
@@ -43,17 +43,15 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let check = |path| Output::check(path, &inputs);
     let output = arguments.output.as_deref().map(check).transpose()?;
     let scenes = read_all(&arguments.scenes)?;
-    let further = requests(&arguments.further)?;
     let options = arguments.method.refined()?;
+    let further = further(&arguments.further, &options)?;
     let mut diagnosis = match scenes.as_slice() {
         [scene] => diagnose(scene, &options, &further)
             .map_err(|error| error.in_file(arguments.scenes[0].display().to_string()))?,
         throws => diagnose_throws(throws, &options, &further)?,
     };
-    let typed = Typed::new(&arguments.scenes, &arguments.method, &arguments.further)?;
-    for line in &mut diagnosis.advice {
-        *line = typed.completed(line);
-    }
+    let typed = Typed::new(&arguments.scenes, &options, &further);
+    diagnosis.advice = typed.advice(&diagnosis.advice);
     let json = diagnosis.to_json();
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
@@ -64,21 +62,6 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => print_bytes(in_words(&diagnosis).as_bytes()),
     }
-}
-
-/// The scenes in these files, with their warnings told.
-pub fn read_all(paths: &[PathBuf]) -> Result<Vec<Scene>> {
-    let read = |path: &PathBuf| {
-        let scene = Scene::read(path)?;
-        super::warn(scene.warnings());
-        Ok(scene)
-    };
-    paths.iter().map(read).collect()
-}
-
-/// The effects that were typed.
-pub fn requests(texts: &[String]) -> Result<Vec<EffectRequest>> {
-    texts.iter().map(|text| EffectRequest::parse(text)).collect()
 }
 
 fn in_words(diagnosis: &Diagnosis) -> String {

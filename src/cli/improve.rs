@@ -9,9 +9,9 @@ use smash::files::{Output, print_bytes};
 use smash::improve::{Improvement, Rung};
 use smash::{Result, improve, improve_throws};
 
-use super::diagnose::{read_all, requests};
 use super::method::Method;
 use super::table::{aligned, degrees, millimetres, p_value};
+use super::throws::{further, read_all};
 use super::typed::Typed;
 
 /// Adds effect after effect until nothing significant is missing, and shows the error fall
@@ -40,8 +40,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let check = |path| Output::check(path, &inputs);
     let output = arguments.output.as_deref().map(check).transpose()?;
     let scenes = read_all(&arguments.scenes)?;
-    let further = requests(&arguments.further)?;
     let options = arguments.method.refined()?;
+    let further = further(&arguments.further, &options)?;
     let improvement = match scenes.as_slice() {
         [scene] => improve(scene, &options, &further)
             .map_err(|error| error.in_file(arguments.scenes[0].display().to_string()))?,
@@ -56,26 +56,28 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => {
-            let typed = Typed::new(&arguments.scenes, &arguments.method, &arguments.further)?;
-            let again = |rung: &Rung| typed.reconstruction(&rung.with);
-            print_bytes(in_words(&improvement, again).as_bytes())
+            let typed = Typed::new(&arguments.scenes, &options, &further);
+            print_bytes(in_words(&improvement, &commands(&improvement, &typed)).as_bytes())
         }
     }
 }
 
-/// `again`: the command that makes a rung.
-fn in_words(improvement: &Improvement, again: impl Fn(&Rung) -> String) -> String {
+/// What makes each rung, and before them what writes the laws that they need and no file holds.
+fn commands(improvement: &Improvement, typed: &Typed) -> Vec<String> {
+    let rungs = improvement.ladder.iter();
+    let rungs: Vec<String> = rungs.map(|rung| typed.reconstruction(&rung.with)).collect();
+    [typed.writing(&rungs), rungs].concat()
+}
+
+/// `again`: the commands that make the rungs.
+fn in_words(improvement: &Improvement, again: &[String]) -> String {
     let mut text = String::new();
     // Writing to a string can't fail.
     let _ = write_words(&mut text, improvement, again);
     text
 }
 
-fn write_words(
-    out: &mut String,
-    improvement: &Improvement,
-    again: impl Fn(&Rung) -> String,
-) -> std::fmt::Result {
+fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) -> std::fmt::Result {
     writeln!(out, "{}", aligned(&table_of(&improvement.ladder)))?;
     for rung in improvement.ladder.iter().filter(|rung| !rung.indistinguishable_from.is_empty()) {
         let added = rung.added.as_deref().unwrap_or_default();
@@ -89,7 +91,9 @@ fn write_words(
             improvement.dropped.join(", ")
         )?;
     }
-    let added = improvement.ladder.last().map(|rung| rung.with.join(" and ")).unwrap_or_default();
+    // By name: values that several throws share stand, with all digits, in the commands.
+    let added = improvement.ladder.iter().filter_map(|rung| rung.added.as_deref());
+    let added = added.collect::<Vec<_>>().join(" and ");
     match improvement.verdict {
         Verdict::NothingMissing => {
             writeln!(out, "Nothing is missing that these poses could show.")?
@@ -104,8 +108,8 @@ fn write_words(
         )?,
     }
     writeln!(out, "\nEach rung again")?;
-    for rung in &improvement.ladder {
-        writeln!(out, "  {}", again(rung))?;
+    for command in again {
+        writeln!(out, "  {command}")?;
     }
     Ok(())
 }

@@ -25,6 +25,7 @@ mod simulate;
 mod studio;
 mod summary;
 mod table;
+mod throws;
 mod typed;
 
 use std::io::Write;

@@ -8,9 +8,10 @@ use smash::reconstruct::{
     Flag, Intervals, Loss, Options, Preset, RefinedOptions, SegmentCriterion,
     reconstruct_with_progress,
 };
-use smash::{Reconstruction, Result, Scene};
+use smash::{Error, Reconstruction, Result, Scene};
 
 use super::again;
+use super::law_files::LawFiles;
 use super::method::Method;
 use super::progress::ProgressLine;
 use super::summary;
@@ -50,19 +51,7 @@ impl Arguments {
             steps.push(format!("smash compare {path} {output}    where it misses the poses"));
         }
         if let (true, Options::Refined(options)) = (is_file, options) {
-            if result.flags.contains(&Flag::PoorFit) {
-                let flags = again::flags(&Options::Refined(options.clone()));
-                let with = again::with(&options.effects);
-                steps.push(format!(
-                    "smash diagnose {path}{flags}{with}    which physics the model lacks"
-                ));
-            }
-            if options.loss != Loss::Robust && result.outliers.len() * 100 > poses(scene) {
-                let intervals = Intervals::Covariance;
-                let robust = RefinedOptions { loss: Loss::Robust, intervals, ..options.clone() };
-                let robust = again::reconstruction(&path, &Options::Refined(robust));
-                steps.push(format!("{robust}    lets wrong annotations hardly count"));
-            }
+            steps.extend(self.with_options(&path, scene, options, result));
         }
         if !result.flags.is_empty() || !result.warnings.is_empty() {
             steps.push(
@@ -71,6 +60,36 @@ impl Arguments {
             );
         }
         steps
+    }
+
+    /// Those that go on with the options, and before them what keeps a law that no file holds.
+    fn with_options(
+        &self,
+        path: &str,
+        scene: &Scene,
+        options: &RefinedOptions,
+        result: &Reconstruction,
+    ) -> Vec<String> {
+        let laws = LawFiles::of(&options.effects);
+        let command = |options: RefinedOptions, start: &str| {
+            let options = laws.named(Options::Refined(options));
+            again::command(start, path, &options)
+        };
+        let mut steps = Vec::new();
+        if result.flags.contains(&Flag::PoorFit) {
+            let diagnose = command(options.clone(), "smash diagnose");
+            steps.push(format!("{diagnose}    which physics the model lacks"));
+        }
+        if options.loss != Loss::Robust && result.outliers.len() * 100 > poses(scene) {
+            let intervals = Intervals::Covariance;
+            let robust = RefinedOptions { loss: Loss::Robust, intervals, ..options.clone() };
+            let robust = command(robust, "smash reconstruct");
+            steps.push(format!("{robust}    lets wrong annotations hardly count"));
+        }
+        let keep = laws.writing(&steps).into_iter();
+        keep.map(|command| format!("{command}    keeps the law, which no file holds"))
+            .chain(steps)
+            .collect()
     }
 }
 
@@ -82,7 +101,8 @@ fn poses(scene: &Scene) -> usize {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let check = |path| Output::check(path, &[&arguments.scene]);
     let output = arguments.output.as_deref().map(check).transpose()?;
-    let scene = Scene::read(&arguments.scene)?;
+    let scene =
+        Scene::read(&arguments.scene).map_err(|error| of_folder(error, &arguments.scene))?;
     super::warn(scene.warnings());
     let progress = ProgressLine::new();
     let options = arguments.method.options()?;
@@ -104,4 +124,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
                 .as_bytes(),
         ),
     }
+}
+
+/// An error about a folder leads to the command that takes folders.
+fn of_folder(error: Error, path: &Path) -> Error {
+    if !path.is_dir() {
+        return error;
+    }
+    let folder = shell_word(&path.to_string_lossy());
+    error.mend(format!("name a scene in it, or take all of them: smash batch {folder} -o RESULTS"))
 }

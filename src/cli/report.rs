@@ -54,10 +54,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     if results.is_empty() {
         results = first_and_last(&scene, &improvement)?;
     }
-    let typed = Typed::of_scene(&arguments.scene);
-    for line in &mut diagnosis.advice {
-        *line = typed.completed(line);
-    }
+    let typed = Typed::new(std::slice::from_ref(&arguments.scene), &options, &further);
+    diagnosis.advice = typed.advice(&diagnosis.advice);
     let mut report = report(&scene, &results, Some(diagnosis), Some(improvement))?;
     super::warn(&report.warnings);
     report.commands = commands(arguments, &results, &further)?;
@@ -70,15 +68,16 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     }
 }
 
-/// Effects that stand in the results with their laws: candidates beyond the catalogue.
+/// Effects that stand in the results with their laws: candidates beyond the catalogue, on every body,
+/// with the values that the first result with the law was given.
 fn own_effects(results: &[(String, Reconstruction)]) -> Result<Vec<EffectRequest>> {
     let mut all: Vec<EffectRequest> = Vec::new();
     for (_, result) in results {
         let Options::Refined(options) = result.made_with()? else { continue };
-        for EffectRequest { effect, .. } in options.effects {
+        for EffectRequest { effect, fixed, .. } in options.effects {
             let is_known = |known: &EffectRequest| known.effect == effect;
             if !catalogue().contains(&effect) && !all.iter().any(is_known) {
-                all.push(EffectRequest { effect, body: None, fixed: Default::default() });
+                all.push(EffectRequest { effect, body: None, fixed });
             }
         }
     }
@@ -112,7 +111,7 @@ fn commands(
     };
     let scene = word(&arguments.scene, "SCENE");
     let files = LawFiles::of(further);
-    let mut commands = files.commands();
+    let mut commands = Vec::new();
     let mut paths = String::new();
     for (path, (_, result)) in arguments.results.iter().zip(results) {
         let path = word(path, "RESULT");
@@ -120,13 +119,15 @@ fn commands(
         commands.push(format!("{made} -o {path}"));
         paths += &format!(" {path}");
     }
-    let further: Vec<String> =
-        further.iter().map(|law| format!(" --try {}", files.word(law))).collect();
+    let further: Vec<String> = further
+        .iter()
+        .map(|law| format!(" --try {}", shell_word(&files.filed(law).to_string())))
+        .collect();
     for ask in ["diagnose", "improve"] {
         commands.push(format!("smash {ask} {scene}{}", further.concat()));
     }
     commands.push(format!("smash report {scene}{paths} -o {}", word(&arguments.output, "-")));
-    Ok(commands)
+    Ok([files.writing(&commands), commands].concat())
 }
 
 fn in_words(arguments: &Arguments, results: &[(String, Reconstruction)]) -> String {

@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use smash::Result;
 use smash::effect::EffectRequest;
 use smash::files::shell_word;
 use smash::reconstruct::{Options, RefinedOptions};
 
 use super::again;
-use super::method::Method;
+use super::law_files::LawFiles;
 
 /// Scenes and options, as they were typed.
 pub struct Typed {
@@ -16,30 +15,43 @@ pub struct Typed {
     options: RefinedOptions,
     /// Further candidates.
     further: Vec<EffectRequest>,
+    laws: LawFiles,
 }
 
 impl Typed {
     /// Of a command with these arguments.
-    ///
-    /// # Errors
-    /// An effect isn't one, or its file is faulty.
-    pub fn new(scenes: &[PathBuf], method: &Method, further: &[String]) -> Result<Typed> {
-        let further = further.iter().map(|text| EffectRequest::parse(text));
-        Ok(Typed {
-            scenes: scenes.iter().map(|path| shell_word(&path.to_string_lossy())).collect(),
-            options: method.refined()?,
-            further: further.collect::<Result<_>>()?,
-        })
+    pub fn new(scenes: &[PathBuf], options: &RefinedOptions, further: &[EffectRequest]) -> Typed {
+        let laws = LawFiles::of(options.effects.iter().chain(further));
+        let filed = |effects: &[EffectRequest]| effects.iter().map(|one| laws.filed(one)).collect();
+        Typed {
+            scenes: scenes.iter().map(|path| scene_word(path)).collect(),
+            options: RefinedOptions { effects: filed(&options.effects), ..options.clone() },
+            further: filed(further),
+            laws,
+        }
     }
 
     /// Of a command that takes a scene and nothing else.
     pub fn of_scene(scene: &Path) -> Typed {
-        let scenes = vec![shell_word(&scene.to_string_lossy())];
-        Typed { scenes, options: RefinedOptions::default(), further: Vec::new() }
+        Typed::new(&[scene.to_path_buf()], &RefinedOptions::default(), &[])
+    }
+
+    /// Lines of advice, completed; before them what keeps a law that no file holds and that they need.
+    pub fn advice(&self, lines: &[String]) -> Vec<String> {
+        let lines: Vec<String> = lines.iter().map(|line| self.completed(line)).collect();
+        let keep = self.writing(&lines).into_iter();
+        keep.map(|command| format!("keep the law, which no file holds: {command}"))
+            .chain(lines)
+            .collect()
+    }
+
+    /// What writes the laws that no file holds and that `commands` need.
+    pub fn writing(&self, commands: &[String]) -> Vec<String> {
+        self.laws.writing(commands)
     }
 
     /// A line of advice with the scene's own path for SCENE, and effects as they were typed.
-    pub fn completed(&self, line: &str) -> String {
+    fn completed(&self, line: &str) -> String {
         let (one, options) = (self.scene(), self.flags());
         let several = match self.scenes.as_slice() {
             [one] => format!("{one} OTHER_SCENE …"),
@@ -80,11 +92,16 @@ impl Typed {
         }
     }
 
-    /// What to type for the effect with this label: of a file its path, and values that are given.
+    /// What to type for the effect with this label, `NAME@BODY` or `NAME@BODY:k=0.03`: of a file its
+    /// path, and values that are given.
     fn effect(&self, label: &str) -> String {
-        let (name, body) = match label.split_once('@') {
-            Some((name, body)) => (name, Some(body)),
+        let (plain, values) = match label.split_once(':') {
+            Some((plain, values)) => (plain, Some(values)),
             None => (label, None),
+        };
+        let (name, body) = match plain.split_once('@') {
+            Some((name, body)) => (name, Some(body)),
+            None => (plain, None),
         };
         let is_it = |request: &EffectRequest| {
             request.effect.name == name
@@ -94,7 +111,47 @@ impl Typed {
         let Some(request) = known.find(|request| is_it(request)) else {
             return shell_word(label);
         };
-        let body = body.map(String::from);
-        shell_word(&EffectRequest { body, ..request.clone() }.to_string())
+        let mut request = EffectRequest { body: body.map(String::from), ..request.clone() };
+        let Some(values) = values else { return shell_word(&request.to_string()) };
+        // They hold the given ones, too.
+        request.fixed.clear();
+        shell_word(&format!("{request}:{values}"))
+    }
+}
+
+/// A scene as a word of the shell. Standard input has no name to type.
+fn scene_word(path: &Path) -> String {
+    match path == Path::new("-") {
+        true => "SCENE".to_string(),
+        false => shell_word(&path.to_string_lossy()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of several throws a label carries the values that they share, those that were given among them.
+    #[test]
+    fn a_law_with_shared_values_is_typed_by_its_file() {
+        let tether = "examples/effects/tether.toml";
+        let given = EffectRequest::parse(&format!("{tether}@ball:length=0.5")).unwrap();
+        let scenes = [PathBuf::from("a.json"), PathBuf::from("b.json")];
+        let typed = Typed::new(&scenes, &RefinedOptions::default(), &[given]);
+        let with = |label: &str| typed.reconstruction(&[label.to_string()]);
+        let start = format!("smash reconstruct SCENE --with {tether}@ball");
+        assert_eq!(with("tether@ball"), format!("{start}:length=0.5"));
+        let shared = "length=0.5,stiffness=0.25";
+        assert_eq!(with(&format!("tether@ball:{shared}")), format!("{start}:{shared}"));
+        assert_eq!(with("magnus@a:k=0.1"), "smash reconstruct SCENE --with magnus@a:k=0.1");
+    }
+
+    /// Standard input has no name to type.
+    #[test]
+    fn a_scene_from_standard_input_stays_a_placeholder() {
+        let typed = Typed::of_scene(Path::new("-"));
+        assert_eq!(typed.reconstruction(&[]), "smash reconstruct SCENE");
+        let line = "look for more: smash improve SCENE".to_string();
+        assert_eq!(typed.advice(std::slice::from_ref(&line)), [line]);
     }
 }

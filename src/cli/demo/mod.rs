@@ -71,9 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let options = RefinedOptions::default();
     let mut diagnosis = diagnose(scene, &options, &[])?;
     let typed = Typed::of_scene(folder.scene.path());
-    for line in &mut diagnosis.advice {
-        *line = typed.completed(line);
-    }
+    diagnosis.advice = typed.advice(&diagnosis.advice);
     tell(story::missing(&diagnosis))?;
 
     step(story::LADDER, format!("smash improve {scene_path}"))?;

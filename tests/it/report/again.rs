@@ -172,3 +172,30 @@ fn a_hostile_result_puts_no_command_of_its_own_into_the_report() {
     }
     assert!(!folder.join("evil").exists());
 }
+
+/// What was given of a law stays given where the law is a candidate: in the page's diagnosis, and in the
+/// command that asks again.
+#[test]
+fn given_values_stay_given_in_what_is_tried() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("wind.toml"), WIND).unwrap();
+    let scene = format!("{ROOT}/scenes/thrown_ball_drag.json");
+    let commands = commands(folder, &scene, &["--with", "wind.toml@ball:air=[0.5,0,2]"]);
+    let tried = " --try 'wind.toml:air=[0.5,0,2]'";
+    let asked = &commands[commands.len() - 3..commands.len() - 1];
+    for (command, ask) in asked.iter().zip(["diagnose", "improve"]) {
+        assert_eq!(*command, format!("smash {ask} {scene}{tried}"));
+    }
+    let page = data(&fs::read_to_string(folder.join("report.html")).unwrap());
+    type_in(folder, &[format!("{} -o diagnosis.json", asked[0])]);
+    let again = fs::read_to_string(folder.join("diagnosis.json")).unwrap();
+    let again: Value = serde_json::from_str(&again).unwrap();
+    let rows = |diagnosis: &Value| -> Vec<(Value, Value)> {
+        let candidates = diagnosis["candidates"].as_array().unwrap().iter();
+        candidates.map(|one| (one["effect"].clone(), one["parameters_added"].clone())).collect()
+    };
+    assert_eq!(rows(&page["diagnosis"]), rows(&again));
+    // Of a law with four parameters one is left.
+    assert!(rows(&again).contains(&("wind".into(), 1.into())), "{again}");
+}

@@ -4,7 +4,9 @@
 mod clean;
 mod command;
 mod hidden;
+mod objects;
 mod pairs;
+mod piped;
 mod strange;
 mod stuck;
 mod swing;
