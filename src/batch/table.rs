@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::inputs::Input;
 use crate::Error;
+use crate::files::spreadsheet_text;
 use crate::reconstruct::{ActiveEffect, Flag, Number, ParameterEstimate, Reconstruction};
 
 /// A scene's row; its fields are the columns. SI units; `None` (an empty cell, null) where there is
@@ -96,7 +97,8 @@ fn with_values(effect: &ActiveEffect) -> String {
     format!("{}:{}", effect.label(), values.join(","))
 }
 
-/// The table with a header; effects and flags are separated by spaces.
+/// The table with a header; effects and flags are separated by spaces. Before a text that a spreadsheet
+/// would compute stands an apostrophe.
 pub(super) fn csv(rows: &[Row]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let write = |writer: &mut csv::Writer<Vec<u8>>, cells: Vec<String>| {
@@ -127,7 +129,7 @@ fn fields(row: &Row) -> serde_json::Map<String, Value> {
 fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
-        Value::String(text) => text.clone(),
+        Value::String(text) => spreadsheet_text(text),
         Value::Array(items) => items.iter().map(cell).collect::<Vec<_>>().join(" "),
         plain => plain.to_string(),
     }

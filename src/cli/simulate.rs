@@ -61,6 +61,7 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
         None => "none: against a static body".to_string(),
     };
     let [x, y, z] = truth.impulse;
+    let first = truth.bodies.first().map_or("a", |body| body.name.as_str());
     let seen = simulation
         .scene
         .bodies()
@@ -93,7 +94,7 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
          \x20 mass ratio m_b/m_a   {mass_ratio}\n\
          \x20 restitution          {:.4}\n\
          \x20 collision time       {:.4} s\n\
-         \x20 impulse on a         ({x:.3}, {y:.3}, {z:.3}) N·s per kg of a\n\
+         \x20 {:19}  ({x:.3}, {y:.3}, {z:.3}) N·s per kg of {first}\n\
          \x20 seen                 {}\n\
          {}\
          \x20 noise                {noise}\n\n\
@@ -101,6 +102,7 @@ fn in_words(arguments: &Arguments, spec: &SimulationSpec, simulation: &Simulatio
          Next:    smash reconstruct {word}\n",
         truth.restitution,
         truth.collision_time,
+        format!("impulse on {first}"),
         seen.collect::<Vec<_>>().join(", "),
         effects,
     )

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use smash::files::Output;
 use smash::reconstruct::{
-    ActiveEffect, Alternative, BodyResult, Estimate, Fit, NoiseReport, Outlier, ParameterEstimate,
+    ActiveEffect, Alternative, BodyResult, Estimate, NoiseReport, Outlier, ParameterEstimate,
     Preset, Reconstruction, SegmentCriterion,
 };
 
@@ -49,9 +49,11 @@ fn write_summary(
     }
     writeln!(out, "  restitution          {}", number(&result.restitution, ""))?;
     writeln!(out, "  collision time       {}", number(&result.collision_time, " s"))?;
+    let first = result.bodies.first().map_or("a", |body| body.name.as_str());
     writeln!(
         out,
-        "  impulse on a         ({}) N·s per kg of a\n",
+        "  {:19}  ({}) N·s per kg of {first}\n",
+        format!("impulse on {first}"),
         digits(result.impulse).join(", ")
     )?;
     writeln!(out, "{}", table(&result.bodies))?;
@@ -63,7 +65,7 @@ fn write_summary(
     write_alternatives(out, &result.alternatives)?;
     write_outliers(out, &result.outliers)?;
     if result.flags.is_empty() {
-        writeln!(out, "\n{}", no_flags(&result.fit))?;
+        writeln!(out, "\n{}", no_flags(result))?;
     }
     if output.is_none() && next.is_empty() {
         return Ok(());
@@ -79,15 +81,26 @@ fn write_summary(
 }
 
 /// A flag takes residuals of twice the noise; what is beyond chance is worth a word before.
-fn no_flags(fit: &Fit) -> String {
+fn no_flags(result: &Reconstruction) -> String {
+    let fit = &result.fit;
     match fit.reduced_chi2.filter(|_| fit.is_beyond_chance()) {
         Some(reduced) => format!(
             "No flags; but the residuals are {:.2} times as large as the stated noise, which is beyond \
              chance.",
             reduced.sqrt()
         ),
+        None if leaves_a_parameter_open(result) => {
+            "No flags: the fit shows none of the known signs of failure. But these poses don't determine \
+             all\nparameters above: give those a value, or leave the effect out."
+                .to_string()
+        }
         None => "No flags: the fit shows none of the known signs of failure.".to_string(),
     }
+}
+
+fn leaves_a_parameter_open(result: &Reconstruction) -> bool {
+    let mut parameters = result.effects.iter().flat_map(|effect| effect.parameters.values());
+    parameters.any(ParameterEstimate::is_open)
 }
 
 fn method(result: &Reconstruction) -> &'static str {

@@ -53,10 +53,10 @@ pub fn find(name_or_path: &str) -> Result<Cow<'static, Effect>> {
     }
     let problem = format!("there is no effect {}", quoted(name_or_path));
     let names: Vec<&str> = catalogue().iter().map(|effect| effect.name.as_str()).collect();
-    let mend = if Path::new(name_or_path).is_file() {
-        format!("to read a file of this name, write ./{name_or_path}")
-    } else {
-        did_you_mean(name_or_path, &names)
+    let files = [name_or_path.to_string(), format!("{name_or_path}.toml")];
+    let mend = match files.iter().find(|file| Path::new(file).is_file()) {
+        Some(file) => format!("to read the file of this name, write ./{file}"),
+        None => did_you_mean(name_or_path, &names),
     };
     Err(Error::new(ErrorKind::Invalid, problem).mend(mend))
 }

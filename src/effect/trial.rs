@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::names::{INPUTS, NAMES, Shape};
-use super::{Effect, Hook, Program};
+use super::{Effect, Hook, Operation, Program};
 use crate::{Error, Result};
 
 /// States tried beside those at rest.
@@ -86,7 +86,7 @@ fn check_derivatives(
         ends[0][index] = (parameters[index] - STEP * scale).max(low);
         ends[1][index] = (parameters[index] + STEP * scale).min(high);
         let [before, after] = ends.map(|end| evaluate(program, hook, state, &end));
-        check_slope(hook, state, &before?, &after?)?;
+        check_slope(program, hook, state, &before?, &after?)?;
     }
     for index in 0..usize::from(INPUTS) {
         let at = |step: f64| {
@@ -94,16 +94,22 @@ fn check_derivatives(
             moved.inputs[index] += step;
             evaluate(program, hook, &moved, parameters)
         };
-        check_slope(hook, state, &at(-STEP)?, &at(STEP)?)?;
+        check_slope(program, hook, state, &at(-STEP)?, &at(STEP)?)?;
     }
     Ok(())
 }
 
-fn check_slope(hook: Hook, state: &State, before: &[f64], after: &[f64]) -> Result<()> {
+fn check_slope(
+    program: &Program,
+    hook: Hook,
+    state: &State,
+    before: &[f64],
+    after: &[f64],
+) -> Result<()> {
     let steepest = before.iter().zip(after).map(|(a, b)| (b - a).abs() / (2.0 * STEP));
     match steepest.fold(0.0, f64::max) {
         steepest if steepest < STEEPEST => Ok(()),
-        _ => Err(not_finite(hook, "has no finite derivative", state)),
+        _ => Err(not_finite(program, hook, "has no finite derivative", state)),
     }
 }
 
@@ -112,13 +118,18 @@ fn evaluate(program: &Program, hook: Hook, state: &State, parameters: &[f64]) ->
     let result = program.evaluate(&known, hook.length());
     match result.iter().all(|value| value.is_finite()) {
         true => Ok(result),
-        false => Err(not_finite(hook, "isn't finite", state)),
+        false => Err(not_finite(program, hook, "isn't finite", state)),
     }
 }
 
-fn not_finite(hook: Hook, problem: &str, state: &State) -> Error {
-    let mend = "write unit(v), which is 0 at 0, for v / norm(v); keep divisors off 0, and roots and \
-                logarithms above it: max(x, 0)";
+fn not_finite(program: &Program, hook: Hook, problem: &str, state: &State) -> Error {
+    let mut mend =
+        "write unit(v), which is 0 at 0, for v / norm(v); keep divisors off 0, and roots and \
+                    logarithms above it: max(x, 0)"
+            .to_string();
+    if program.instructions.iter().any(|one| one.operation == Operation::Exp) {
+        mend += "; exp(x) overflows for x above 700, and is steep long before: divide x by a usual size";
+    }
     Error::invalid(format!("law.{hook}"), format!("{problem} {}", state.words)).mend(mend)
 }
 

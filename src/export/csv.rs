@@ -1,6 +1,7 @@
 //! A table of the sampled motion: a row for each body and frame.
 
 use super::frames::film;
+use crate::files::spreadsheet_text;
 use crate::motion::Track;
 use crate::{Reconstruction, Result};
 
@@ -51,8 +52,11 @@ pub fn csv(result: &Reconstruction, fps: Option<f64>) -> Result<String> {
     for body in &film.motion.bodies {
         for (segment, track) in [("before", &body.before), ("after", &body.after)] {
             for frame in 0..track.times.len() {
-                let mut cells =
-                    vec![track.times[frame].to_string(), text(&body.name), segment.into()];
+                let mut cells = vec![
+                    track.times[frame].to_string(),
+                    spreadsheet_text(&body.name),
+                    segment.into(),
+                ];
                 cells.extend(numbers(track, frame));
                 write(cells);
             }
@@ -60,14 +64,6 @@ pub fn csv(result: &Reconstruction, fps: Option<f64>) -> Result<String> {
     }
     let bytes = writer.into_inner().expect("memory takes every row");
     Ok(String::from_utf8(bytes).expect("every cell is text"))
-}
-
-/// A name that a spreadsheet would compute is kept a text.
-fn text(name: &str) -> String {
-    match name.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        true => format!("'{name}"),
-        false => name.to_string(),
-    }
 }
 
 /// Position, orientation, velocity and spin; empty where they aren't known.

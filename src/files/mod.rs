@@ -36,6 +36,15 @@ pub fn shell_word(text: &str) -> String {
     }
 }
 
+/// `text` as a cell of a table: after an apostrophe where a spreadsheet would compute it, such as `=a`.
+/// Numbers are no texts: -1 stays what it is.
+pub(crate) fn spreadsheet_text(text: &str) -> String {
+    match text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        true => format!("'{text}"),
+        false => text.to_string(),
+    }
+}
+
 /// Reads the text of `path`, or of standard input for `-`.
 ///
 /// # Errors
@@ -49,6 +58,10 @@ pub fn read_text(path: &Path) -> Result<String> {
 /// `mend` says what to do.
 pub(crate) fn read_text_up_to(limit: u64, path: &Path, mend: &str) -> Result<String> {
     let name = display_name(path, "standard input");
+    if path.is_dir() {
+        let error = Error::new(ErrorKind::Read, "is a folder").in_file(&name);
+        return Err(error.mend("name a file in it"));
+    }
     let unreadable = |error: io::Error| {
         Error::new(ErrorKind::Read, format!("can't be read: {}", plain(&error)))
             .in_file(&name)

@@ -11,7 +11,7 @@ use super::fault::Fault;
 use super::parse::{Tree, parse};
 use super::toml::parse_toml;
 use crate::words::{quoted, shortened};
-use crate::{Error, Result};
+use crate::{Error, ErrorKind, Result};
 
 /// Reads a file of the kind `schema` (such as `smash.scene/1`) from its `text`.
 ///
@@ -20,9 +20,15 @@ use crate::{Error, Result};
 /// and a mend.
 pub(crate) fn decode<T: DeserializeOwned>(text: &str, file: &str, schema: &str) -> Result<T> {
     let decode_tree = |tree: &Tree| {
-        // Without this field, or with another value, decoding says what is wrong.
-        if let Some(Tree::Text(found)) = tree.field("schema") {
-            check_schema(found, schema)?;
+        match tree.field("schema") {
+            Some(Tree::Text(found)) => check_schema(found, schema)?,
+            // First of all: it tells a scene that lacks it from another program's file.
+            None if matches!(tree, Tree::Object(_)) => {
+                return Err(Error::new(ErrorKind::Invalid, "the field `schema` is missing")
+                    .mend(format!("add `\"schema\": \"{schema}\"`, if it is such a file")));
+            }
+            // Decoding says what is wrong.
+            _ => {}
         }
         from_tree(tree)
     };

@@ -11,6 +11,8 @@ use crate::effect::{Effect, known};
 
 /// Why a parameter that isn't unknown has no deviation.
 pub(crate) const GIVEN: &str = "it was given";
+/// Why a parameter has none that the poses leave open.
+pub(crate) const NO_DATA: &str = "the poses don't determine it";
 
 /// An effect beyond the base model, with its parameters. The `paper` preset has none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -57,6 +59,13 @@ pub struct ParameterEstimate {
     /// Why `value` or `std` is null.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+}
+
+impl ParameterEstimate {
+    /// Whether the poses leave it open: its value is then as good as any.
+    pub fn is_open(&self) -> bool {
+        self.reason.as_deref() == Some(NO_DATA)
+    }
 }
 
 /// A scalar, or a vector.

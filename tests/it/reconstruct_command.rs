@@ -261,3 +261,37 @@ fn the_next_steps_keep_the_options() {
         assert!(words.contains(&expected), "no {expected} in\n{words}");
     }
 }
+
+/// The impulse is on the scene's first body, whatever it is called.
+#[test]
+fn the_first_body_has_its_own_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = format!("{}/scenes", env!("CARGO_MANIFEST_DIR"));
+    let made = quiet_success(run(&folder, &[&format!("{scenes}/thrown_ball_drag.json")]));
+    let spec = format!("{scenes}/thrown_ball_drag.spec.json");
+    let simulated = Command::new(env!("CARGO_BIN_EXE_smash"))
+        .args(["simulate", &spec, "-o", "scene.json"])
+        .current_dir(folder.path())
+        .output();
+    for words in [made, quiet_success(simulated.unwrap())] {
+        assert!(words.contains("\n  impulse on ball      (0.000, 6."), "{words}");
+        assert!(words.contains("N·s per kg of ball\n"), "{words}");
+    }
+}
+
+/// What the poses leave open is no flag, but no reason for praise either.
+#[test]
+fn no_flags_is_no_praise_where_parameters_are_open() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let scene = format!("{root}/scenes/boxes.json");
+    let folder = tempfile::tempdir().unwrap();
+    // Air that doesn't drag may move as it likes.
+    let idle = format!("{root}/examples/effects/wind.toml@a:k=0");
+    let words = quiet_success(run(&folder, &[&scene, "--with", &idle]));
+    assert!(words.contains("(the poses don't determine it)"), "{words}");
+    assert!(words.contains("But these poses don't determine all\nparameters above"), "{words}");
+    // What was given is no open question.
+    let given = format!("{root}/examples/effects/wind.toml@a:k=0,wind=[0,0,0]");
+    let words = quiet_success(run(&folder, &[&scene, "--with", &given]));
+    assert!(words.ends_with("none of the known signs of failure.\n"), "{words}");
+}

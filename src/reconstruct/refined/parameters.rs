@@ -6,12 +6,11 @@ use super::uncertainty::Deviations;
 use crate::Scene;
 use crate::bridge::refined::ffi::ParameterRule;
 use crate::effect::{Parameter, catalogue};
-use crate::reconstruct::active_effect::{GIVEN, scalar_names};
+use crate::reconstruct::active_effect::{GIVEN, NO_DATA, scalar_names};
 use crate::reconstruct::{ActiveEffect, Number, ParameterEstimate};
 
 const SCANNED: &str = "it is one of the annotated poses";
 const AT_BOUND: &str = "it ends at its bound";
-const NO_DATA: &str = "the poses don't determine it";
 
 /// All effects of a fitted model.
 pub(super) fn effects(

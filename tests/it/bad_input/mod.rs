@@ -2,6 +2,7 @@
 //! a child process on each.
 
 mod absurd;
+mod hints;
 mod outputs;
 mod scenes;
 
@@ -117,7 +118,7 @@ fn folder_of_inputs() -> TempDir {
 fn unreadable_inputs_are_named() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("folder")).unwrap();
-    for (name, words) in [("nothing.json", "no such file"), ("folder", "directory")] {
+    for (name, words) in [("nothing.json", "no such file"), ("folder", "is a folder")] {
         let run = smash(folder.path(), &["reconstruct", name, "-o", "result.json"]);
         let message = refusal(name, &run);
         assert!(message.contains(name) && message.contains(words), "{message}");
