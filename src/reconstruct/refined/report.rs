@@ -7,7 +7,7 @@ use super::noise::{KnownNoise, is_known, positions, square, turns};
 use super::parameters::{effects, parameter_names};
 use super::profile::{Held, Profile};
 use super::quantities::{CONTACT_POINT, Collision, body_place, collision, derivatives, names};
-use super::robust::outliers;
+use super::robust::{is_outlier, outliers};
 use super::significance::push;
 use super::uncertainty::Deviations;
 use crate::bridge::refined::ffi::RefinedScene;
@@ -269,23 +269,29 @@ fn fit(scene: &Scene, fitted: &Fitted) -> Fit {
 
 /// The fit by which it is judged: a robust one without the poses that it holds for wrong.
 fn judged_fit(fit: &Fit, outliers: &[Outlier], fitted: &Fitted) -> Fit {
-    let solution = &fitted.best().solution;
     let noise = fitted.noise.value;
-    let rest = |channel: &str, (count, squares): (f64, f64), sigma: f64| {
-        let wrong = outliers.iter().filter(|outlier| outlier.channel == channel);
-        let (wrong_count, wrong_squares) = wrong.fold((0.0, 0.0), |(count, squares), outlier| {
-            (count + 3.0, squares + (sigma * outlier.deviations).powi(2))
-        });
-        let left = (squares - wrong_squares).max(0.0) / (count - wrong_count);
-        if left.is_finite() { left.sqrt() } else { 0.0 }
+    let bodies = fitted.refined.bodies.iter();
+    let poses = bodies.flat_map(|body| body.poses.iter().map(|pose| (body.has_spin, pose)));
+    let (mut positions_m2, mut turns_rad2) = (Vec::new(), Vec::new());
+    for ((has_spin, pose), residual) in poses.zip(&fitted.best().solution.residuals) {
+        let [position, turn] = [&residual.position_m, &residual.turn_rad];
+        if !is_outlier(position, pose, noise.position) {
+            positions_m2.push(square(position));
+        }
+        if has_spin && pose.has_orientation && !is_outlier(turn, pose, noise.orientation) {
+            turns_rad2.push(square(turn));
+        }
+    }
+    // In m and rad, as `Fit` has them: not as if each pose were as noisy as the others.
+    let rms = |squares: &[f64]| match squares.len() {
+        0 => 0.0,
+        count => (squares.iter().sum::<f64>() / (3 * count) as f64).sqrt(),
     };
-    let position_rmse = rest("position", positions(&fitted.refined, solution), noise.position);
-    let orientation_rmse = rest("orientation", turns(&fitted.refined, solution), noise.orientation);
     let wrong: f64 = outliers.iter().map(|outlier| outlier.deviations.powi(2)).sum();
     let dof = fit.dof - 3 * outliers.len() as i64;
     Fit {
-        position_rmse,
-        orientation_rmse: fit.orientation_rmse.map(|_| orientation_rmse),
+        position_rmse: rms(&positions_m2),
+        orientation_rmse: fit.orientation_rmse.map(|_| rms(&turns_rad2)),
         reduced_chi2: fit.chi2.filter(|_| dof > 0).map(|chi2| (chi2 - wrong) / dof as f64),
         ..fit.clone()
     }

@@ -141,6 +141,11 @@ pub(super) fn outliers(
     found
 }
 
+/// Whether a residual of `pose` is beyond what one in a thousand is by the noise.
+pub(super) fn is_outlier(residual: &[f64; 3], pose: &RefinedPose, noise: f64) -> bool {
+    over(residual, pose, noise) > OUTLIER
+}
+
 /// What a pose's residuals cost: ½ r² of each channel, or Student's ½ (ν + 3) ln(1 + r²/ν).
 pub(super) fn residual_cost(
     pose: &RefinedPose,
