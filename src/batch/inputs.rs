@@ -36,8 +36,10 @@ impl Input {
 /// The scenes in `inputs`, in their order, each once.
 ///
 /// # Errors
-/// A folder can't be read or holds no scene, or two inputs can't be told apart by name.
+/// An input isn't there, a folder can't be read or holds no scene, or two inputs can't be told apart by
+/// name.
 pub(super) fn find(inputs: &[impl AsRef<Path>]) -> Result<Found> {
+    refuse_missing(inputs)?;
     let mut found = Found { scenes: Vec::new(), not_scenes: Vec::new() };
     let mut places = HashSet::new();
     for input in inputs.iter().map(AsRef::as_ref) {
@@ -57,6 +59,23 @@ pub(super) fn find(inputs: &[impl AsRef<Path>]) -> Result<Found> {
     }
     name(&mut found.scenes)?;
     Ok(found)
+}
+
+/// A name that leads nowhere is a slip of the finger, or a disk that isn't mounted: better told before
+/// an hour of work than after it.
+fn refuse_missing(inputs: &[impl AsRef<Path>]) -> Result<()> {
+    let is_missing =
+        |path: &&Path| *path != Path::new("-") && matches!(path.try_exists(), Ok(false));
+    let missing: Vec<&Path> = inputs.iter().map(AsRef::as_ref).filter(is_missing).collect();
+    let (first, others) = match missing.as_slice() {
+        [] => return Ok(()),
+        [first] => (first, String::new()),
+        [first, second] => (first, format!(", nor is {}", second.display())),
+        [first, rest @ ..] => (first, format!(", nor are {} others", rest.len())),
+    };
+    Err(Error::new(ErrorKind::Read, format!("isn't there{others}"))
+        .in_file(first.display().to_string())
+        .mend("check the path: nothing was done"))
 }
 
 /// The folder's JSON files by name: those that are no scenes, and the others. One that can't be

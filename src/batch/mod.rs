@@ -83,8 +83,8 @@ pub enum Outcome {
 /// stop the rest, and is tried again by the next run. Only one batch at a time may write to a folder.
 ///
 /// # Errors
-/// An input folder can't be read or holds no scene, two inputs can't be told apart by name, an
-/// input would be overwritten, or `folder` can't be written to.
+/// An input isn't there, a folder can't be read or holds no scene, two inputs can't be told apart by
+/// name, an input would be overwritten, or `folder` can't be written to.
 ///
 /// # Example
 /// ```no_run

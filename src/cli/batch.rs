@@ -18,7 +18,7 @@ use super::progress::ProgressLine;
 /// file where two share a name; results.csv and results.jsonl hold one row a scene. Start it again
 /// after an interruption, or with more scenes: a result is kept if it was made from the same
 /// content, with the same options and versions, and scenes that failed are tried again. Exit code
-/// 1 if a scene failed. The environment variable RAYON_NUM_THREADS takes fewer cores.
+/// 1 if a scene failed; where an input isn't there, nothing is done. The environment variable RAYON_NUM_THREADS takes fewer cores.
 #[derive(Args)]
 pub struct Arguments {
     /// Scenes (smash.scene/1), or folders: their *.json that are scenes
