@@ -4,8 +4,9 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::compare::plots;
+use smash::compare::{against_truth, plots};
 use smash::files::{Output, OutputFolder, display_name, print_bytes};
+use smash::simulate::Truth;
 use smash::{Reconstruction, Result, Scene, compare};
 
 use super::comparison;
@@ -15,7 +16,7 @@ use super::comparison;
 /// Residuals (pose minus model) by body, before and after the collision, in position and
 /// orientation; whether they look random along the axes where causes show, and in words where they
 /// don't; single poses that are wrong; momentum and energy before and after. With several results,
-/// also what each says, and how far later ones are from the first.
+/// also what each says, and how far later ones are from the first; with --truth, how far all are from it.
 #[derive(Args)]
 pub struct Arguments {
     /// The scene (smash.scene/1), or - for standard input
@@ -23,6 +24,9 @@ pub struct Arguments {
     /// Results of this scene (smash.result/1)
     #[arg(required = true, value_name = "RESULT")]
     results: Vec<PathBuf>,
+    /// What the scene was simulated with (smash.truth/1), to tell how far off results are
+    #[arg(long, value_name = "FILE")]
+    truth: Option<PathBuf>,
     /// Where to write the comparison (smash.comparison/1), or - for standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -38,8 +42,12 @@ pub struct Arguments {
 /// Reads, compares, writes, tells.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let results = arguments.results.iter();
-    let inputs: Vec<&Path> =
-        results.clone().chain([&arguments.scene]).map(PathBuf::as_path).collect();
+    let inputs: Vec<&Path> = results
+        .clone()
+        .chain([&arguments.scene])
+        .chain(&arguments.truth)
+        .map(PathBuf::as_path)
+        .collect();
     let check = |path| Output::check(path, &inputs);
     let output = arguments.output.as_deref().map(check).transpose()?;
     let folder = arguments.svg.as_deref().map(OutputFolder::open).transpose()?;
@@ -48,7 +56,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let read =
         |path: &PathBuf| Ok((display_name(path, "standard input"), Reconstruction::read(path)?));
     let results = results.map(read).collect::<Result<Vec<_>>>()?;
-    let comparison = compare(&scene, &results)?;
+    let mut comparison = compare(&scene, &results)?;
+    if let Some(path) = &arguments.truth {
+        let name = display_name(path, "standard input");
+        comparison.against_truth = against_truth(&scene, &Truth::read(path)?, &results)
+            .map_err(|error| error.in_file(name))?;
+    }
     super::warn(&comparison.warnings);
     let json = comparison.to_json();
     if let Some(output) = &output {

@@ -24,8 +24,18 @@ fn write_all(out: &mut String, comparison: &Comparison) -> std::fmt::Result {
     let name = if comparison.scene.is_empty() { "the collision" } else { &comparison.scene };
     let names = short_names(comparison);
     writeln!(out, "{name}\n")?;
+    if !comparison.against_truth.is_empty() {
+        let columns = [&["the truth".to_string()], names.as_slice()].concat();
+        let rows = side_by_side::rows(&comparison.against_truth, &columns);
+        write!(
+            out,
+            "{}\nDifferences are from the truth, of vectors their length, in σ of the result: of the \
+             coordinate that\nis furthest off.\n\n",
+            aligned(&rows)
+        )?;
+    }
     if names.len() > 1 {
-        write!(out, "{}", aligned(&side_by_side::rows(comparison, &names)))?;
+        write!(out, "{}", aligned(&side_by_side::rows(&comparison.quantities, &names)))?;
         writeln!(
             out,
             "\nDifferences are from {}, of vectors their length, in σ the coordinate that differs \

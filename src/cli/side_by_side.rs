@@ -1,18 +1,17 @@
 //! What results say, quantity by quantity, beside each other.
 
-use smash::Comparison;
-use smash::compare::{Difference, Entry, Quantity};
+use smash::compare::{Difference, Entry, NOT_IN_THE_MODEL, Quantity};
 
 use super::table::{decimals, digits_of, sigmas};
 
 /// A header, and a row for each quantity: what each result says, and how far later ones are from the
 /// first.
-pub fn rows(comparison: &Comparison, names: &[String]) -> Vec<Vec<String>> {
+pub fn rows(quantities: &[Quantity], names: &[String]) -> Vec<Vec<String>> {
     let mut header = vec![String::new(), names[0].clone()];
     for name in &names[1..] {
         header.extend([name.clone(), "difference".into(), String::new()]);
     }
-    let rows = comparison.quantities.iter().map(|quantity| {
+    let rows = quantities.iter().map(|quantity| {
         let digits = digits(quantity);
         let mut row = vec![label(quantity), value(&quantity.entries[0], digits)];
         for (entry, difference) in quantity.entries[1..].iter().zip(&quantity.differences) {
@@ -26,10 +25,9 @@ pub fn rows(comparison: &Comparison, names: &[String]) -> Vec<Vec<String>> {
 
 /// `a.velocity_before` as people say it, with its unit.
 fn label(quantity: &Quantity) -> String {
-    let words = quantity.quantity.replace('_', " ");
-    let words = match words.rsplit_once('.') {
-        Some((body, words)) => format!("{body}  {words}"),
-        None => words,
+    let words = match quantity.quantity.rsplit_once('.') {
+        Some((body, words)) => format!("{body}  {}", words.replace('_', " ")),
+        None => quantity.quantity.replace('_', " "),
     };
     match quantity.unit.as_str() {
         "" => words,
@@ -54,6 +52,7 @@ fn is_scalar(quantity: &Quantity) -> bool {
 
 fn value(entry: &Entry, digits: usize) -> String {
     match (entry.value.as_deref(), entry.std.as_slice()) {
+        (None, _) if entry.reason.as_deref() == Some(NOT_IN_THE_MODEL) => NOT_IN_THE_MODEL.into(),
         (None, _) => "not determined".into(),
         (Some(&[value]), &[Some(std)]) => {
             format!("{} ± {}", decimals(value, digits), decimals(std, digits))

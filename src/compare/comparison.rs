@@ -26,6 +26,10 @@ pub struct Comparison {
     pub results: Vec<ResultResiduals>,
     /// What the results say, side by side.
     pub quantities: Vec<Quantity>,
+    /// The truth of a simulated scene, where it was given, and each result beside it; differences are
+    /// from the truth.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub against_truth: Vec<Quantity>,
     /// What looks odd, and what to do about it.
     pub warnings: Vec<String>,
 }

@@ -21,6 +21,7 @@ mod randomness;
 mod residuals;
 mod series;
 mod side_by_side;
+mod truth;
 mod yardstick;
 
 pub use axis::Axis;
@@ -35,6 +36,7 @@ pub use ledger::{Ledger, LedgerEntry, LedgerLine};
 pub use plot::{Plot, plots};
 pub use randomness::{Pattern, RandomnessTest, TestName};
 pub use series::{ResidualPoint, ResidualSeries, series};
+pub use truth::{NOT_IN_THE_MODEL, against_truth};
 
 use crate::{Reconstruction, Result, Scene};
 
@@ -76,6 +78,7 @@ pub fn compare(scene: &Scene, results: &[(String, Reconstruction)]) -> Result<Co
         warnings: doubts.collect(),
         results: told,
         quantities: side_by_side::quantities(scene, results),
+        against_truth: Vec::new(),
     })
 }
 

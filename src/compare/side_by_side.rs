@@ -10,11 +10,24 @@ use crate::{Reconstruction, Scene};
 
 /// A difference that is a smaller part of the numbers is rounding.
 const ROUNDING: f64 = 1e-12;
-const NOT_DETERMINED: &str = "not determined";
+pub(super) const NOT_DETERMINED: &str = "not determined";
+
+/// What one result says of a quantity, with the quantity's name and the unit of its values.
+pub(super) type Said = (String, String, Entry);
 
 /// All quantities, with one entry for each of `results`, which are of `scene`.
 pub(super) fn quantities(scene: &Scene, results: &[(String, Reconstruction)]) -> Vec<Quantity> {
-    let columns = results.iter().map(|(_, result)| Column::of(scene, result).rows);
+    // Results of one scene have the same bodies, hence the same rows.
+    beside(results.iter().map(|(_, result)| said(scene, result)))
+}
+
+/// All that `result` says.
+pub(super) fn said(scene: &Scene, result: &Reconstruction) -> Vec<Said> {
+    Column::of(scene, result).rows
+}
+
+/// Columns of the same quantities side by side; differences are from the first.
+pub(super) fn beside(columns: impl Iterator<Item = Vec<Said>>) -> Vec<Quantity> {
     let mut quantities: Vec<Quantity> = Vec::new();
     for rows in columns {
         if quantities.is_empty() {
@@ -22,17 +35,16 @@ pub(super) fn quantities(scene: &Scene, results: &[(String, Reconstruction)]) ->
                 .iter()
                 .map(|(quantity, unit, _)| Quantity {
                     quantity: quantity.clone(),
-                    unit: unit.to_string(),
+                    unit: unit.clone(),
                     difference_unit: match quantity.ends_with(".orientation") {
                         true => "rad".to_string(),
-                        false => unit.to_string(),
+                        false => unit.clone(),
                     },
                     entries: Vec::new(),
                     differences: Vec::new(),
                 })
                 .collect();
         }
-        // Results of one scene have the same bodies, hence the same rows.
         for (quantity, (_, _, entry)) in quantities.iter_mut().zip(rows) {
             if let Some(first) = quantity.entries.first() {
                 quantity.differences.push(difference(first, &entry));
@@ -47,7 +59,7 @@ pub(super) fn quantities(scene: &Scene, results: &[(String, Reconstruction)]) ->
 struct Column<'a> {
     /// One standard deviation of each number, by its name in the result's `uncertainty`.
     std: HashMap<&'a str, f64>,
-    rows: Vec<(String, &'static str, Entry)>,
+    rows: Vec<Said>,
 }
 
 impl<'a> Column<'a> {
@@ -76,7 +88,7 @@ impl<'a> Column<'a> {
             let LedgerEntry { value, std } = line.change;
             let reason = value.is_none().then(|| NOT_DETERMINED.to_string());
             let entry = Entry { value, std, reason };
-            column.rows.push((format!("{}_change", line.quantity), unit, entry));
+            column.rows.push((format!("{}_change", line.quantity), unit.to_string(), entry));
         }
         for body in &result.bodies {
             let name = |quantity: &str| format!("{}.{quantity}", body.name);
@@ -92,7 +104,7 @@ impl<'a> Column<'a> {
         column
     }
 
-    fn number(&mut self, quantity: &str, unit: &'static str, estimate: Option<&Estimate>) {
+    fn number(&mut self, quantity: &str, unit: &str, estimate: Option<&Estimate>) {
         let value = estimate.and_then(|estimate| estimate.value);
         let reason = || {
             estimate.and_then(|estimate| estimate.reason.clone()).unwrap_or(NOT_DETERMINED.into())
@@ -102,14 +114,14 @@ impl<'a> Column<'a> {
             std: vec![estimate.and_then(|estimate| estimate.std)],
             reason: value.is_none().then(reason),
         };
-        self.rows.push((quantity.to_string(), unit, entry));
+        self.rows.push((quantity.to_string(), unit.to_string(), entry));
     }
 
     /// `value`: x y z, or w x y z.
     fn vector<const N: usize>(
         &mut self,
         quantity: &str,
-        unit: &'static str,
+        unit: &str,
         value: Option<[f64; N]>,
         why: Option<&str>,
     ) {
@@ -119,7 +131,7 @@ impl<'a> Column<'a> {
         });
         let reason = value.is_none().then(|| why.unwrap_or(NOT_DETERMINED).to_string());
         let entry = Entry { value: value.map(Vec::from), std: std.into(), reason };
-        self.rows.push((quantity.to_string(), unit, entry));
+        self.rows.push((quantity.to_string(), unit.to_string(), entry));
     }
 }
 

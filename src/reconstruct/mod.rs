@@ -19,6 +19,7 @@ pub use active_effect::{ActiveEffect, Number, ParameterEstimate};
 pub use flags::Flag;
 pub use options::{Intervals, Loss, Options, PaperOptions, RefinedOptions, SegmentCriterion};
 pub use progress::{Progress, Stage};
+pub(crate) use read::check_numbers;
 pub use result::{
     Alternative, BodyResult, Estimate, Fit, NoiseReport, Outlier, PhaseReport, Preset,
     RESULT_SCHEMA, Reconstruction, Uncertainty,

@@ -44,7 +44,7 @@ impl Reconstruction {
     /// The same with orientations of unit length, if all numbers can be reckoned with.
     fn checked(mut self) -> Result<Reconstruction> {
         let tree = serde_json::to_value(&self).expect("it was a JSON tree before");
-        check_numbers("", &tree)?;
+        check_numbers("", &tree, "reconstruct the scene again")?;
         let ratio = self.mass_ratio.iter().map(|ratio| ("mass_ratio", ratio));
         let others = [("restitution", &self.restitution), ("collision_time", &self.collision_time)];
         for (place, estimate) in ratio.chain(others) {
@@ -121,19 +121,21 @@ fn check_deviation(place: &str, std: f64) -> Result<()> {
 }
 
 /// Checks that every number in `tree`, which stands at `place`, is of a reasonable size.
-fn check_numbers(place: &str, tree: &Value) -> Result<()> {
+pub(crate) fn check_numbers(place: &str, tree: &Value, mend: &str) -> Result<()> {
     match tree {
         Value::Number(number) => {
             let value = number.as_f64().unwrap_or(f64::NAN);
-            check_range(place, value, &NUMBERS, "reconstruct the scene again")
+            check_range(place, value, &NUMBERS, mend)
         }
         Value::Array(items) => {
             let mut items = items.iter().enumerate();
-            items.try_for_each(|(index, item)| check_numbers(&format!("{place}[{index}]"), item))
+            items.try_for_each(|(index, item)| {
+                check_numbers(&format!("{place}[{index}]"), item, mend)
+            })
         }
         Value::Object(fields) => fields.iter().try_for_each(|(key, item)| {
             let dot = if place.is_empty() { "" } else { "." };
-            check_numbers(&format!("{place}{dot}{key}"), item)
+            check_numbers(&format!("{place}{dot}{key}"), item, mend)
         }),
         Value::Null | Value::Bool(_) | Value::String(_) => Ok(()),
     }

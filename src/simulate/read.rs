@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use super::{SIMULATION_SCHEMA, SimulationSpec, Truth};
+use super::{SIMULATION_SCHEMA, SimulationSpec, TRUTH_SCHEMA, Truth};
 use crate::Result;
 use crate::files::{display_name, read_text};
 use crate::json::{decode, pretty};
+use crate::reconstruct::check_numbers;
 
 impl SimulationSpec {
     /// Reads the specification `path` (`-` is standard input); [`simulate`](super::simulate)
@@ -33,6 +34,21 @@ impl SimulationSpec {
 }
 
 impl Truth {
+    /// Reads the truth `path` (`-` is standard input).
+    ///
+    /// # Errors
+    /// The file can't be read, isn't JSON, is no `smash.truth/1`, or holds a number beyond reason; with
+    /// place, value and mend.
+    pub fn read(path: impl AsRef<Path>) -> Result<Truth> {
+        let path = path.as_ref();
+        let name = display_name(path, "standard input");
+        let truth: Truth = decode(&read_text(path)?, &name, TRUTH_SCHEMA)?;
+        let tree = serde_json::to_value(&truth).expect("it was a JSON tree before");
+        check_numbers("", &tree, "simulate the scene again")
+            .map_err(|error| error.in_file(name))?;
+        Ok(truth)
+    }
+
     /// The truth's text as JSON.
     pub fn to_json(&self) -> String {
         pretty(self)

@@ -5,6 +5,7 @@ mod command;
 mod differences;
 mod files;
 mod residuals;
+mod truth;
 
 use std::fs;
 use std::path::Path;
