@@ -25,7 +25,7 @@ pub(crate) fn decode<T: DeserializeOwned>(text: &str, file: &str, schema: &str) 
             // First of all: it tells a scene that lacks it from another program's file.
             None if matches!(tree, Tree::Object(_)) => {
                 return Err(Error::new(ErrorKind::Invalid, "the field `schema` is missing")
-                    .mend(format!("add `\"schema\": \"{schema}\"`, if it is such a file")));
+                    .mend(format!("add `schema`, here \"{schema}\", if it is such a file")));
             }
             // Decoding says what is wrong.
             _ => {}
