@@ -121,6 +121,6 @@ fn unknown(result: &Reconstruction) -> Vec<String> {
 fn frames_a_second(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(fps) if (1e-3..=1e7).contains(&fps) => Ok(fps),
-        _ => Err("give the frames a second, from 0.001 to 10000000, such as 60".to_string()),
+        _ => Err("give the frames a second, above 0 (0.001 to 10000000), such as 60".to_string()),
     }
 }
