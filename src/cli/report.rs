@@ -69,13 +69,14 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 }
 
 /// Effects that stand in the results with their laws: candidates beyond the catalogue, on every body,
-/// with the values that the first result with the law was given.
+/// with the values that the first result with the law was given. Of two laws of one name it is the first:
+/// answers tell candidates by it.
 fn own_effects(results: &[(String, Reconstruction)]) -> Result<Vec<EffectRequest>> {
     let mut all: Vec<EffectRequest> = Vec::new();
     for (_, result) in results {
         let Options::Refined(options) = result.made_with()? else { continue };
         for EffectRequest { effect, fixed, .. } in options.effects {
-            let is_known = |known: &EffectRequest| known.effect == effect;
+            let is_known = |known: &EffectRequest| known.effect.name == effect.name;
             if !catalogue().contains(&effect) && !all.iter().any(is_known) {
                 all.push(EffectRequest { effect, body: None, fixed });
             }
@@ -110,12 +111,14 @@ fn commands(
         false => shell_word(&path.to_string_lossy()),
     };
     let scene = word(&arguments.scene, "SCENE");
-    let files = LawFiles::of(further);
+    let made: Vec<Options> =
+        results.iter().map(|(_, result)| result.made_with()).collect::<Result<_>>()?;
+    let files = LawFiles::of(made.iter().flat_map(effects));
     let mut commands = Vec::new();
     let mut paths = String::new();
-    for (path, (_, result)) in arguments.results.iter().zip(results) {
+    for (path, options) in arguments.results.iter().zip(made) {
         let path = word(path, "RESULT");
-        let made = again::reconstruction(&scene, &files.named(result.made_with()?));
+        let made = again::reconstruction(&scene, &files.named(options));
         commands.push(format!("{made} -o {path}"));
         paths += &format!(" {path}");
     }
@@ -128,6 +131,13 @@ fn commands(
     }
     commands.push(format!("smash report {scene}{paths} -o {}", word(&arguments.output, "-")));
     Ok([files.writing(&commands), commands].concat())
+}
+
+fn effects(options: &Options) -> &[EffectRequest] {
+    match options {
+        Options::Refined(options) => &options.effects,
+        _ => &[],
+    }
 }
 
 fn in_words(arguments: &Arguments, results: &[(String, Reconstruction)]) -> String {

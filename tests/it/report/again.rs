@@ -199,3 +199,27 @@ fn given_values_stay_given_in_what_is_tried() {
     // Of a law with four parameters one is left.
     assert!(rows(&again).contains(&("wind".into(), 1.into())), "{again}");
 }
+
+/// A law that was changed between two results has one name, and is two laws: both are made again, and the
+/// main result's is tried.
+#[test]
+fn two_versions_of_a_law_are_made_again_each_by_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let scene = format!("{ROOT}/scenes/thrown_ball_drag.json");
+    for (law, result) in [(WIND.to_string(), "1"), (WIND.replace("air - v", "air - 2 * v"), "2")] {
+        fs::write(folder.join("wind.toml"), law).unwrap();
+        let result = format!("{result}.json");
+        assert_done(&smash(folder, &["reconstruct", &scene, "--with", "wind.toml", "-o", &result]));
+    }
+    assert_done(&smash(folder, &["report", &scene, "1.json", "2.json", "-o", "report.html"]));
+    let page = data(&fs::read_to_string(folder.join("report.html")).unwrap());
+    let commands: Vec<String> = serde_json::from_value(page["commands"].clone()).unwrap();
+    let laws = |result: &str| {
+        let result = untimed(&folder.join(result));
+        result.effects.iter().map(|effect| effect.definition.clone().unwrap()).collect::<Vec<_>>()
+    };
+    let before = [laws("1.json"), laws("2.json")];
+    type_in(folder, &commands);
+    assert_eq!([laws("1.json"), laws("2.json")], before);
+}
