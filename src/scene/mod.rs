@@ -130,6 +130,12 @@ impl Scene {
         self.plane.as_ref()
     }
 
+    /// Whether any pose has its orientation measured.
+    pub(crate) fn has_orientations(&self) -> bool {
+        let poses = self.bodies.iter().flat_map(|body| &body.observations);
+        poses.into_iter().any(|pose| pose.world_from_body.is_some())
+    }
+
     /// The scene with the stamps of one body, or of all, moved by `shift_s`; `None` where they then
     /// leave no gap for the collision.
     pub(crate) fn delayed(&self, body: Option<usize>, shift_s: f64) -> Option<Scene> {

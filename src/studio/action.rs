@@ -70,7 +70,7 @@ pub enum Change {
         /// One σ of a position coordinate, m.
         #[serde(skip_serializing_if = "Option::is_none")]
         position: Option<f64>,
-        /// One σ of a component of the rotation vector, rad.
+        /// One σ of a component of the rotation vector, rad; not needed where no orientation is measured.
         #[serde(skip_serializing_if = "Option::is_none")]
         orientation: Option<f64>,
     },

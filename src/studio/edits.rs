@@ -12,6 +12,9 @@ use crate::{Error, ErrorKind, Result, Scene};
 /// Poses that a variant may change: of more, no person has looked at each.
 const MOST_EDITS: usize = 1_000;
 
+/// σ of orientations where there are none: any will do, nothing is divided by it.
+const UNMEASURED_NOISE_RAD: f64 = 0.01;
+
 /// How a variant's poses differ from the scene's. Observations are counted in order of time, from 0.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Edits {
@@ -103,15 +106,20 @@ impl Edits {
         self.check_size()
     }
 
-    /// States other noise; `None` for the scene's own.
+    /// States other noise; with neither number the scene's own. Where `scene` has no orientations, that
+    /// of positions is enough.
     pub(super) fn state_noise(
         &mut self,
+        scene: &Scene,
         position: Option<f64>,
         orientation: Option<f64>,
     ) -> Result<()> {
         self.noise = match (position, orientation) {
             (Some(position), Some(orientation)) => Some(Noise { position, orientation }),
             (None, None) => None,
+            (Some(position), None) if !scene.has_orientations() => {
+                Some(Noise { position, orientation: UNMEASURED_NOISE_RAD })
+            }
             (Some(_), None) | (None, Some(_)) => {
                 let field = if position.is_none() { "position" } else { "orientation" };
                 return Err(Error::invalid(field, "is missing")

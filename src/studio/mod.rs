@@ -31,7 +31,7 @@ pub use edits::{Edits, MovedPose, NoisyPose, Pose};
 pub use file::{SESSION_SCHEMA, SessionFile, SessionScene, SessionVariant};
 pub use law::{LawCheck, LawEffect, LawMistake};
 pub use server::Server;
-pub use state::{CatalogueEffect, LawView, STUDIO_SCHEMA, StudioState, VariantView};
+pub use state::{CatalogueEffect, LawView, Limits, STUDIO_SCHEMA, StudioState, VariantView};
 pub use tree::Numbers;
 
 use diagnoses::{Diagnoses, Subject};

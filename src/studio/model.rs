@@ -45,7 +45,7 @@ impl Model {
                 model.edits.scale_noise(scene, pose(body, observation), *scale)?;
             }
             Change::Noise { position, orientation } => {
-                model.edits.state_noise(*position, *orientation)?;
+                model.edits.state_noise(scene, *position, *orientation)?;
             }
         }
         if model.effects.len() > MOST_EFFECTS {
@@ -86,9 +86,14 @@ impl Model {
             Change::PoseNoise { body, observation, scale } => {
                 format!("noise of pose {observation} of {body} × {}", rounded(*scale))
             }
-            Change::Noise { position: Some(position), orientation: Some(orientation) } => {
-                let [position, turn] = [1e3 * position, orientation.to_degrees()].map(three_digits);
-                format!("noise {position} mm, {turn}°")
+            Change::Noise { position: Some(position), orientation } => {
+                let position = three_digits(1e3 * position);
+                match orientation.filter(|_| scene.has_orientations()) {
+                    Some(turn) => {
+                        format!("noise {position} mm, {}°", three_digits(turn.to_degrees()))
+                    }
+                    None => format!("noise {position} mm"),
+                }
             }
             Change::Noise { .. } => "noise as in the scene".to_string(),
         }

@@ -7,7 +7,7 @@ use super::edits::Edits;
 use super::fits::{Fit, Fits};
 use super::law::labels;
 use super::session::{OwnLaw, Session};
-use super::state::{CatalogueEffect, LawView, STUDIO_SCHEMA, StudioState, VariantView};
+use super::state::{CatalogueEffect, LawView, Limits, STUDIO_SCHEMA, StudioState, VariantView};
 use super::tree::Variant;
 use crate::compare::compare;
 use crate::diagnose::all_candidates;
@@ -77,6 +77,7 @@ impl Shown {
             variants: variants.map(|(id, variant)| self.variant(scene, id, variant)).collect(),
             compared: tree.compared.clone(),
             edits: tree.current().model.edits.clone(),
+            limits: Limits::new(),
             catalogue: catalogue()
                 .iter()
                 .map(|effect| CatalogueEffect {

@@ -1,11 +1,14 @@
 //! All that the page shows, `smash.studio/1`.
 
+use std::ops::RangeInclusive;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::edits::Edits;
 use super::tree::Numbers;
 use crate::report::Report;
+use crate::scene::bounds::{NOISE, NOISE_SCALE};
 
 /// The value of a state's field `schema`.
 pub const STUDIO_SCHEMA: &str = "smash.studio/1";
@@ -33,6 +36,8 @@ pub struct StudioState {
     pub compared: Vec<usize>,
     /// What is changed of the poses, in the current one.
     pub edits: Edits,
+    /// How large and small stated noise may be.
+    pub limits: Limits,
     /// The effects that smash knows.
     pub catalogue: Vec<CatalogueEffect>,
     /// The user's own.
@@ -42,6 +47,23 @@ pub struct StudioState {
     /// Of the current variant, then of those compared. All poses are in it, also those that the fit
     /// leaves out; tests of the residuals are of the others.
     pub report: Report,
+}
+
+/// The least and the most of what can be stated.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct Limits {
+    /// One σ of the noise, m or rad.
+    pub noise: [f64; 2],
+    /// A pose's own σ over that of the noise.
+    pub noise_scale: [f64; 2],
+}
+
+impl Limits {
+    /// Those of scenes.
+    pub(super) fn new() -> Limits {
+        let ends = |range: RangeInclusive<f64>| [*range.start(), *range.end()];
+        Limits { noise: ends(NOISE), noise_scale: ends(NOISE_SCALE) }
+    }
 }
 
 /// A model that was tried.

@@ -10,8 +10,8 @@ import type { PoseActs } from './pose_acts';
 const REACH_PX = 12;
 /** A pose is taken hold of by its mark alone where the band's edge is at hand, too. */
 const MARK_PX = 5;
-/** What scenes may hold. */
-const NOISE_SCALES = { least: 0.01, most: 1000 };
+/** A hand that clicks slips by so much. */
+const SLIP_PX = 4;
 
 /** What is dragged, and how it is let go. */
 interface Drag {
@@ -28,6 +28,7 @@ interface Noisy {
 export class Pointer {
   private dragged: PlotPoint | Noisy | 'band' | null = null;
   private drag: Drag | null = null;
+  private pressed = { x: 0, y: 0 };
 
   /** `tell` shows what a drag would do, or, with null, what is there. */
   constructor(
@@ -83,6 +84,7 @@ export class Pointer {
       this.dragged = this.noisyAt(x, y) ?? (this.isAtBand(y) ? 'band' : null);
     }
     if (this.dragged === null) return;
+    this.pressed = { x, y };
     event.preventDefault();
     plot.over.setPointerCapture(event.pointerId);
     plot.over.focus({ preventScroll: true });
@@ -90,6 +92,8 @@ export class Pointer {
 
   private pull(x: number, y: number): void {
     if (this.acts === null || this.dragged === null) return;
+    const { pressed } = this;
+    if (this.drag === null && Math.hypot(x - pressed.x, y - pressed.y) < SLIP_PX) return;
     this.drag = this.dragTo(x, y, this.dragged, this.acts);
     this.tell(`${this.drag.words}; Esc leaves it`);
   }
@@ -110,7 +114,8 @@ export class Pointer {
     if ('before' in dragged) {
       const { point } = dragged;
       const reach = Math.abs(plot.posToVal(y, 'y') - point.value) / (2 * (sigma ?? 1));
-      const scale = Number(Math.min(Math.max(reach, NOISE_SCALES.least), NOISE_SCALES.most).toPrecision(2));
+      const [least, most] = acts.noiseScales;
+      const scale = Number(Math.min(Math.max(reach, least), most).toPrecision(2));
       this.stretch(point, scale);
       return {
         words: `noise of pose ${point.observation} × ${significant(scale, 2)}`,

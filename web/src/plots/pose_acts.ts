@@ -6,6 +6,8 @@ export type Mode = (typeof MODES)[number];
 export interface PoseActs {
   /** What a click or a drag in a plot does. */
   mode: Mode;
+  /** Between which a pose's own noise may be, over that of the others. */
+  readonly noiseScales: [least: number, most: number];
   readonly isMarked: (body: string, observation: number) => boolean;
   mark: (body: string, observation: number, wrong: boolean) => void;
   move: (body: string, observation: number, time: number) => void;

@@ -1,7 +1,7 @@
 // Always in sight: the current model, how well it fits, undo and redo, files.
 
 import { element, refill } from '../element';
-import { isTyping } from '../keys';
+import { UndoKeys } from './undo_keys';
 import { angle, length, significant } from '../numbers';
 import { saveBlob } from '../save';
 import type { StudioState, Variant } from '../studio_state';
@@ -34,15 +34,9 @@ export class Bar {
       this.line.root,
     );
     studio.state.watch((state) => this.show(state));
-  }
-
-  /** Ctrl-Z and Ctrl-Shift-Z, but where one types: there they are the text's. */
-  press(event: KeyboardEvent): void {
-    const isZ = (event.ctrlKey || event.metaKey) && !event.altKey && event.key.toLowerCase() === 'z';
-    if (!isZ || event.defaultPrevented || isTyping(event.target as HTMLElement)) return;
-    event.preventDefault();
-    const way = event.shiftKey ? 'redo' : 'undo';
-    if (this.studio.state.value[way] !== null) void this.studio.act({ do: way }, this.line);
+    new UndoKeys((way) => {
+      if (studio.state.value[way] !== null) void studio.act({ do: way }, this.line);
+    });
   }
 
   private show(state: StudioState): void {
@@ -54,7 +48,7 @@ export class Bar {
           type: 'button',
           id: way,
           'data-testid': way,
-          title: way === 'undo' ? 'Undo (Ctrl Z)' : 'Redo (Ctrl Shift Z)',
+          title: way === 'undo' ? 'Undo (Ctrl Z)' : 'Redo (Ctrl Y)',
           disabled: state[way] === null,
           onclick: () => void studio.act({ do: way }, line),
         },

@@ -6,6 +6,7 @@ import type { Maybe } from '../numbers';
 import type { StudioState } from '../studio_state';
 import type { ErrorLine } from './error_line';
 import type { Studio } from './studio';
+import { typed } from './typed';
 
 export function noiseForm(studio: Studio, line: ErrorLine): HTMLElement {
   const root = element('div', { class: 'row' });
@@ -14,56 +15,38 @@ export function noiseForm(studio: Studio, line: ErrorLine): HTMLElement {
 }
 
 function show(root: HTMLElement, studio: Studio, line: ErrorLine, state: StudioState): void {
-  const stated = state.edits.noise ?? state.report.scene.noise;
-  const field = (id: string, value: Maybe<number>, words: string): HTMLInputElement =>
-    element('input', {
-      type: 'number',
-      id,
-      min: 0,
-      step: 'any',
-      'data-testid': id,
-      'aria-label': words,
-      class: 'short-field',
-      value: typeof value !== 'number' ? null : Number(value.toPrecision(3)),
-    });
-  const position = field(
-    'noise-position',
-    stated && stated.position * 1000,
-    'One σ of a position coordinate, mm',
-  );
-  const turn = field(
-    'noise-orientation',
-    stated && stated.orientation * DEGREES,
-    'One σ of an orientation, degrees',
-  );
-  // What wasn't changed stays to the last digit.
-  const read = (from: HTMLInputElement, known: Maybe<number>, unit: number): number =>
-    from.value === from.defaultValue && typeof known === 'number' ? known : from.valueAsNumber / unit;
-  const stateIt = (): void =>
-    void studio.act(
-      {
-        do: 'noise',
-        position: read(position, stated?.position, 1000),
-        orientation: read(turn, stated?.orientation, DEGREES),
-      },
-      line,
-    );
+  const { edits, limits, report } = state;
+  const stated = edits.noise ?? report.scene.noise;
+  const hasTurns = report.scene.bodies.some((body) => body.observations.some((pose) => pose.orientation));
+  const position = new Sigma('position', 'positions', 'mm', 1000, stated?.position, limits.noise);
+  const turn = new Sigma('orientation', 'orientations', '°', DEGREES, stated?.orientation, limits.noise);
+  const shown = hasTurns ? [position, turn] : [position];
+  const stateIt = (): void => {
+    const isEmpty = shown.every((sigma) => sigma.isEmpty);
+    try {
+      const numbers = isEmpty ? [] : shown.map((sigma) => [sigma.channel, sigma.read()]);
+      void studio.act({ do: 'noise', ...Object.fromEntries(numbers) }, line);
+    } catch (error) {
+      line.tell(error);
+    }
+  };
   const form = element(
     'form',
     {
       class: 'row',
+      // What is wrong is said beside the form, with the mend.
+      novalidate: true,
       onsubmit: (event: SubmitEvent) => {
         event.preventDefault();
         stateIt();
       },
     },
     'Noise, one σ: ',
-    position,
-    ' mm a coordinate, ',
-    turn,
-    ' ° an axis ',
+    position.field,
+    ' mm a coordinate',
+    ...(hasTurns ? [', ', turn.field, ' ° an axis '] : [' ']),
     element('button', { id: 'noise-state', 'data-testid': 'noise-state' }, 'State it'),
-    state.edits.noise !== null &&
+    edits.noise !== null &&
       element(
         'button',
         {
@@ -78,4 +61,47 @@ function show(root: HTMLElement, studio: Studio, line: ErrorLine, state: StudioS
       element('span', { class: 'hint' }, 'The scene states none: it is estimated from the residuals.'),
   );
   refill(root, form);
+}
+
+/** A field for one σ, in the unit that it is read in. */
+class Sigma {
+  readonly field: HTMLInputElement;
+
+  constructor(
+    readonly channel: 'position' | 'orientation',
+    private readonly words: string,
+    private readonly unit: string,
+    /** How many of the unit are one of the SI. */
+    private readonly scale: number,
+    private readonly known: Maybe<number>,
+    private readonly limits: [number, number],
+  ) {
+    this.field = element('input', {
+      type: 'number',
+      id: `noise-${channel}`,
+      step: 'any',
+      'data-testid': `noise-${channel}`,
+      'aria-label': `Noise of ${words}, one σ, ${unit}`,
+      class: 'short-field',
+      value: typeof known === 'number' ? Number((known * scale).toPrecision(3)) : null,
+    });
+  }
+
+  get isEmpty(): boolean {
+    return this.field.value === '' && !this.field.validity.badInput;
+  }
+
+  /** In m or rad; what wasn't changed stays to the last digit. */
+  read(): number {
+    const { field, known, limits, scale, unit } = this;
+    if (field.value === field.defaultValue && typeof known === 'number') return known;
+    return (
+      typed(field, {
+        name: `Noise of ${this.words}`,
+        unit,
+        limits: [limits[0] * scale, limits[1] * scale],
+        mend: `type one σ in ${unit === '°' ? 'degrees' : unit}, above 0; leave all empty for the scene’s own`,
+      }) / scale
+    );
+  }
 }

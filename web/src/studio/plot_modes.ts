@@ -72,14 +72,16 @@ export class PlotModes implements PoseActs {
     void this.studio.act({ do: 'pose_noise', body, observation, scale }, this.line);
   }
 
+  get noiseScales(): [least: number, most: number] {
+    return this.studio.state.value.limits.noise_scale;
+  }
+
   noise(channel: 'position' | 'orientation', sigma: number): void {
     const { edits, report } = this.studio.state.value;
-    const known = edits.noise ??
-      report.scene.noise ?? {
-        position: report.noise?.position ?? sigma,
-        // Of a scene without orientations any will do: nothing is divided by it.
-        orientation: report.noise?.orientation ?? 0.01,
-      };
-    void this.studio.act({ do: 'noise', ...known, [channel]: sigma }, this.line);
+    const known = edits.noise ?? report.scene.noise ?? report.noise;
+    const stated = { position: known?.position ?? sigma, orientation: known?.orientation, [channel]: sigma };
+    // Where no orientation is measured, there is no noise of it to state.
+    const { position, orientation = undefined } = stated;
+    void this.studio.act({ do: 'noise', position, orientation }, this.line);
   }
 }

@@ -9,6 +9,7 @@ import { table } from '../table';
 import { ErrorLine } from './error_line';
 import { noiseForm } from './noise_form';
 import type { Studio } from './studio';
+import { ANY, typed } from './typed';
 
 /** More rows are slow, and nobody reads them. */
 const MOST_ROWS = 200;
@@ -128,21 +129,27 @@ export class Poses {
     const is = (pose: { body: string; observation: number }): boolean =>
       pose.body === body.name && pose.observation === index;
     const key = `${body.name}-${index}`;
+    const pose = { body: body.name, observation: index };
+    const words = `pose ${index} of ${body.name}`;
     const time = element('input', {
       type: 'number',
       step: 'any',
       id: `time-${key}`,
       class: 'short-field',
       'data-testid': `time-${key}`,
-      'aria-label': `Time of pose ${index} of ${body.name}, s`,
+      'aria-label': `Time of ${words}, s`,
       value: fixed(body.observations[index].time, 6).replace('−', '-'),
       onchange: () =>
-        void this.change(time, {
+        void this.change(time, () => ({
           do: 'time',
-          body: body.name,
-          observation: index,
-          time: time.valueAsNumber,
-        }),
+          ...pose,
+          time: typed(time, {
+            name: `Time of ${words}`,
+            unit: 's',
+            limits: ANY,
+            mend: 'type a time in s, between those of its neighbours',
+          }),
+        })),
     });
     const wrong = element('input', {
       type: 'checkbox',
@@ -150,30 +157,31 @@ export class Poses {
       'data-testid': `wrong-${key}`,
       checked: state.edits.marked.some(is),
       'aria-label': `Pose ${index} of ${body.name} is wrong`,
-      onchange: () =>
-        void this.change(wrong, {
-          do: 'mark',
-          body: body.name,
-          observation: index,
-          wrong: wrong.checked,
-        }),
+      onchange: () => void this.change(wrong, () => ({ do: 'mark', ...pose, wrong: wrong.checked })),
     });
     const scale = element('input', {
       type: 'number',
-      min: 0,
       step: 'any',
       id: `scale-${key}`,
       class: 'short-field',
       'data-testid': `scale-${key}`,
-      'aria-label': `Noise of pose ${index} of ${body.name}, times that of the others`,
+      'aria-label': `Noise of ${words}, times that of the others`,
       value: Number(facts.scale.toPrecision(6)),
+      // Emptied, it is as noisy as the others.
       onchange: () =>
-        void this.change(scale, {
+        void this.change(scale, () => ({
           do: 'pose_noise',
-          body: body.name,
-          observation: index,
-          scale: scale.valueAsNumber,
-        }),
+          ...pose,
+          scale:
+            scale.value === '' && !scale.validity.badInput
+              ? 1
+              : typed(scale, {
+                  name: `Noise of ${words}`,
+                  unit: 'times that of the others',
+                  limits: state.limits.noise_scale,
+                  mend: 'leave it empty for as noisy as the others',
+                }),
+        })),
     });
     const isMoved = state.edits.times.some(is);
     return [
@@ -186,8 +194,12 @@ export class Poses {
   }
 
   /** After a refusal the field shows again what it was made with. */
-  private async change(field: HTMLInputElement, action: Action): Promise<void> {
-    if (await this.studio.act(action, this.line)) return;
+  private async change(field: HTMLInputElement, action: () => Action): Promise<void> {
+    try {
+      if (await this.studio.act(action(), this.line)) return;
+    } catch (wrong) {
+      this.line.tell(wrong);
+    }
     field.value = field.defaultValue;
     field.checked = field.defaultChecked;
   }

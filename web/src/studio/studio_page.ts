@@ -23,10 +23,8 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
   const missingLine = new ErrorLine();
   const modes = new PlotModes(studio, plotLine);
   const catalogue = new Catalogue(studio, (text) => law.edit(text));
-  const bar = new Bar(studio);
-  window.addEventListener('keydown', (event) => bar.press(event));
   const page = new ReportPage(root, {
-    top: [banner(studio), bar.root],
+    top: [banner(studio), new Bar(studio).root],
     model: element(
       'section',
       { class: 'model', 'aria-label': 'The model' },
@@ -38,7 +36,7 @@ export function showStudio(root: HTMLElement, state: StudioState): void {
     acts: modes,
     keys: [
       ['Ctrl Z', 'undo'],
-      ['Ctrl Shift Z', 'redo'],
+      ['Ctrl Y', 'redo; also Ctrl Shift Z'],
     ],
     adder: (effect) =>
       element(
