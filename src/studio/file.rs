@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::action::Change;
 use super::session::Session;
+use super::session_scene::SessionScene;
 use super::tree::{MOST_COMPARED, Numbers, Tree};
 use crate::json::{decode, pretty};
 use crate::scene::values::check_range;
-use crate::words::{counted, quoted};
+use crate::words::counted;
 use crate::{Error, ErrorKind, Result, Scene};
 
 /// The value of a session file's field `schema`.
@@ -42,16 +43,6 @@ pub struct SessionFile {
     pub variants: Vec<SessionVariant>,
 }
 
-/// Which scene a session is of.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SessionScene {
-    /// Its name.
-    pub name: String,
-    /// The SHA-256 of its file, as `sha256sum` prints it.
-    pub sha256: String,
-}
-
 /// A model that was tried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -77,7 +68,7 @@ impl SessionFile {
         decode(text, file_name, SESSION_SCHEMA)
     }
 
-    pub(super) fn of(session: &Session, scene: &Scene, sha256: &str) -> SessionFile {
+    pub(super) fn of(session: &Session, scene: &SessionScene) -> SessionFile {
         let variants = session.tree.variants.iter().map(|variant| SessionVariant {
             parent: variant.parent,
             change: variant.change.clone(),
@@ -86,7 +77,7 @@ impl SessionFile {
         });
         SessionFile {
             schema: SESSION_SCHEMA.to_string(),
-            scene: SessionScene { name: scene.name().to_string(), sha256: sha256.to_string() },
+            scene: scene.clone(),
             current: session.tree.current,
             compared: session.tree.compared.clone(),
             draft: session.draft.clone(),
@@ -105,12 +96,8 @@ impl SessionFile {
     }
 
     /// The session, made again change by change, by the checks that each passed when it was made.
-    pub(super) fn session(self, scene: &Scene, sha256: &str) -> Result<Session> {
-        if self.scene.sha256 != sha256 {
-            let problem = format!("is another one: {}", quoted(&self.scene.name));
-            return Err(Error::invalid("scene", problem)
-                .mend("open it with the file of its own scene, unchanged; or name another session: --session FILE"));
-        }
+    pub(super) fn session(self, scene: &Scene, identity: &SessionScene) -> Result<Session> {
+        self.scene.check_same(identity)?;
         if self.draft.len() > LONGEST_DRAFT_BYTES {
             return Err(Error::invalid("draft", "is too long").mend("keep a page of text"));
         }

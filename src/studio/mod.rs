@@ -7,6 +7,7 @@
 //! ```
 
 mod action;
+mod content;
 mod diagnoses;
 mod edits;
 mod file;
@@ -18,19 +19,21 @@ mod place;
 mod save;
 mod server;
 mod session;
+mod session_scene;
 mod shown;
 mod state;
 mod tree;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 pub use action::{Action, Change, Step};
 pub use edits::{Edits, MovedPose, NoisyPose, Pose};
-pub use file::{SESSION_SCHEMA, SessionFile, SessionScene, SessionVariant};
+pub use file::{SESSION_SCHEMA, SessionFile, SessionVariant};
 pub use law::{LawCheck, LawEffect, LawMistake};
 pub use server::Server;
+pub use session_scene::SessionScene;
 pub use state::{CatalogueEffect, LawView, Limits, STUDIO_SCHEMA, StudioState, VariantView};
 pub use tree::Numbers;
 
@@ -45,7 +48,7 @@ use crate::diagnose::diagnose;
 use crate::effect::EffectRequest;
 use crate::files::{display_name, read_text, sha256, shell_word};
 use crate::reconstruct::RefinedOptions;
-use crate::{Diagnosis, Error, Result, Scene};
+use crate::{Diagnosis, Error, ErrorKind, Result, Scene};
 
 /// A scene, and a session of models of it. Any number of threads may use it at once.
 #[derive(Debug)]
@@ -53,10 +56,11 @@ pub struct Studio {
     scene: Arc<Scene>,
     /// How to name it in a command.
     scene_word: String,
-    scene_sha256: String,
+    /// The scene as the session's file names it.
+    identity: SessionScene,
     session_file: String,
-    /// Where that is, by its whole path.
-    session_path: PathBuf,
+    /// What tells that file from all others: a hash of its whole path.
+    session_id: String,
     /// What is seen; held for moments only.
     shown: Mutex<Arc<Shown>>,
     /// Whoever holds this changes what is seen: one after the other.
@@ -81,14 +85,14 @@ impl Studio {
     pub fn open(scene: &Path, session: Option<&Path>) -> Result<Studio> {
         let scene_file = display_name(scene, "standard input");
         let text = read_text(scene)?;
-        let scene_sha256 = sha256(&text);
         let mut save = Save::open(scene, session)?;
         let scene_path = scene;
         let scene = Arc::new(Scene::parse(&text, &scene_file)?);
+        let identity = SessionScene::of(&scene, &text);
         let saved = save.read()?;
         let session = match &saved {
             Some(text) => SessionFile::parse(text, save.name())?
-                .session(&scene, &scene_sha256)
+                .session(&scene, &identity)
                 .map_err(|error| error.in_file(save.name()))?,
             None => Session::new(),
         };
@@ -106,9 +110,9 @@ impl Studio {
                 true => "SCENE".to_string(),
                 false => shell_word(&scene_file),
             },
-            scene_sha256,
+            identity,
             session_file: save.name().to_string(),
-            session_path: save.path().to_path_buf(),
+            session_id: sha256(&save.path().to_string_lossy())[..16].to_string(),
             shown: Mutex::new(Arc::new(shown)),
             acting: Mutex::new(Acting { fits, save }),
             diagnoses: Diagnoses::new()?,
@@ -147,11 +151,12 @@ impl Studio {
         Ok(self.state_of(&shown))
     }
 
-    /// Keeps the draft of a law, and tells what is wrong with it.
+    /// Keeps the draft of a law, and tells what is wrong with it; with `instead_of` only in
+    /// the place of that.
     ///
     /// # Errors
-    /// It is too long, or the session can't be saved.
-    pub fn check_law(&self, draft: &str) -> Result<LawCheck> {
+    /// It is too long, another draft than `instead_of` is there, or the session can't be saved.
+    pub fn check_law(&self, draft: &str, instead_of: Option<&str>) -> Result<LawCheck> {
         if draft.len() > LONGEST_DRAFT_BYTES {
             let problem = format!("is longer than {} KiB", LONGEST_DRAFT_BYTES >> 10);
             return Err(Error::invalid("draft", problem).mend("a law is a page of text"));
@@ -159,6 +164,10 @@ impl Studio {
         let mut acting = locked(&self.acting);
         let mut shown = self.shown();
         if shown.session.draft != draft {
+            if instead_of.is_some_and(|known| known != shown.session.draft) {
+                return Err(Error::invalid("instead_of", "isn't the draft that is there")
+                    .mend("look at the state's `draft`, and decide which one is to stay"));
+            }
             let mut after = (*shown).clone();
             after.revision += 1;
             after.session.draft = draft.to_string();
@@ -215,7 +224,7 @@ impl Studio {
     /// # Errors
     /// It is too large.
     pub fn session_json(&self) -> Result<String> {
-        SessionFile::of(&self.shown().session, &self.scene, &self.scene_sha256).to_json()
+        SessionFile::of(&self.shown().session, &self.identity).to_json()
     }
 
     /// Adds the variants of a saved session of the same scene, and goes to the one that it shows. What
@@ -225,8 +234,7 @@ impl Studio {
     /// It is no session of this scene, a model can't be fitted, or the session can't be saved; nothing
     /// is changed.
     pub fn open_session(&self, text: &str) -> Result<StudioState> {
-        let opened =
-            SessionFile::parse(text, "the session")?.session(&self.scene, &self.scene_sha256)?;
+        let opened = opened_file(text)?.session(&self.scene, &self.identity)?;
         let mut acting = locked(&self.acting);
         let before = self.shown();
         let mut session = before.session.clone();
@@ -252,7 +260,7 @@ impl Studio {
 
     /// Saves what is to be seen, and then shows it.
     fn show(&self, acting: &mut Acting, after: Shown) -> Result<Arc<Shown>> {
-        let file = SessionFile::of(&after.session, &self.scene, &self.scene_sha256);
+        let file = SessionFile::of(&after.session, &self.identity);
         acting.save.write(&file.to_json()?)?;
         let after = Arc::new(after);
         *locked(&self.shown) = after.clone();
@@ -260,7 +268,7 @@ impl Studio {
     }
 
     fn state_of(&self, shown: &Shown) -> StudioState {
-        let mut state = shown.state(&self.scene, &self.session_file);
+        let mut state = shown.state(&self.scene, &self.session_id, &self.session_file);
         state.report.commands = self.commands();
         state
     }
@@ -274,6 +282,21 @@ impl Studio {
     fn shown(&self) -> Arc<Shown> {
         locked(&self.shown).clone()
     }
+}
+
+/// A session that somebody chose among files of all kinds.
+fn opened_file(text: &str) -> Result<SessionFile> {
+    let name = "the session";
+    SessionFile::parse(text, name).map_err(|error| match error.place() {
+        Some("schema") => {
+            let problem = format!("it {}, and no session", error.problem());
+            Error::new(ErrorKind::Invalid, problem).in_file(name).mend(format!(
+                "open a file that a studio saved (`{SESSION_SCHEMA}`), such as NAME.session.json; a \
+                 result is for `smash report SCENE RESULT`"
+            ))
+        }
+        _ => error,
+    })
 }
 
 /// What a diagnosis is of while `session` is seen.

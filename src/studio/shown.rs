@@ -64,12 +64,13 @@ impl Shown {
     }
 
     /// What the page is given.
-    pub(super) fn state(&self, scene: &Scene, session_file: &str) -> StudioState {
+    pub(super) fn state(&self, scene: &Scene, session: &str, session_file: &str) -> StudioState {
         let tree = &self.session.tree;
         let variants = tree.variants.iter().enumerate();
         StudioState {
             schema: STUDIO_SCHEMA.to_string(),
             revision: self.revision,
+            session: session.to_string(),
             session_file: session_file.to_string(),
             current: tree.current,
             undo: tree.current().parent,

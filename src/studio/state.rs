@@ -22,6 +22,9 @@ pub struct StudioState {
     pub schema: String,
     /// Another one whenever anything has changed, larger than before.
     pub revision: u64,
+    /// Which session it is: the same whenever its file is opened, of another file another. Browsers keep
+    /// things under it.
+    pub session: String,
     /// Where the session is saved after each act.
     pub session_file: String,
     /// The variant that is seen.

@@ -11,7 +11,7 @@ use hyper_util::service::TowerToHyperService;
 use tokio::net::TcpListener;
 use tokio::time::{sleep, timeout};
 
-use super::guests::{Asked, Guests, note};
+use super::guests::{Asked, Guests, Stream, note};
 
 /// At once: ten browsers of six connections each, four times.
 const MOST_CONNECTIONS: usize = 256;
@@ -53,7 +53,7 @@ pub(super) async fn serve(listener: TcpListener, router: Router, stop: impl Futu
             .timer(TokioTimer::new())
             .header_read_timeout(LONGEST_HEAD)
             .max_buf_size(LARGEST_HEAD)
-            .serve_connection(TokioIo::new(stream), service);
+            .serve_connection(TokioIo::new(Stream { stream, asked: asked.clone() }), service);
         let connection = ending.watch(connection);
         let task = tokio::spawn(async move {
             // Whatever ended it: nobody is left to tell.

@@ -11,9 +11,9 @@ use axum::http::header::{
 };
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode};
 use axum::middleware::Next;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 
-use super::reply::refused;
+use super::reply::{nothing_here, refused};
 use super::token::Token;
 
 /// Which requests are let through.
@@ -57,7 +57,7 @@ impl Gate {
         let path = request.uri().path();
         let guess = path.strip_prefix('/').and_then(|rest| rest.split('/').next());
         if !self.token.is(guess.unwrap_or_default()) {
-            return Some(StatusCode::NOT_FOUND.into_response());
+            return Some(nothing_here());
         }
         if !self.is_own_origin(request.headers()) {
             return Some(refused(

@@ -44,7 +44,7 @@ impl Server {
         };
         let listen = |port: u16| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
         let listener = match port {
-            0 => listen(port::usual(&studio.session_path)).or_else(|_| listen(0)),
+            0 => listen(port::usual(&studio.session_id)).or_else(|_| listen(0)),
             port => listen(port),
         };
         let listener = listener.map_err(unusable)?;

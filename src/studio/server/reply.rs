@@ -46,6 +46,14 @@ pub(super) fn refused(status: StatusCode, problem: &str, mend: &str) -> Response
     error(status, &Error::new(ErrorKind::Invalid, problem).mend(mend))
 }
 
+/// The answer to every address that there isn't, for whoever opens it in a browser. It is the same for
+/// all: nothing tells a wrong token from a wrong path.
+pub(super) fn nothing_here() -> Response {
+    let words = "Nothing is at this address. Each time that `smash studio` is started its page has another \
+                 one:\nopen the address that it printed. What was tried in a session is there.\n";
+    (StatusCode::NOT_FOUND, with_type("text/plain; charset=utf-8", words.into())).into_response()
+}
+
 /// What should never happen, and must not take the server down.
 pub(super) fn own_fault() -> Response {
     let mend = "go on, or start the studio again: the session is saved";

@@ -13,7 +13,7 @@ use serde_json::json;
 
 use super::body::text;
 use super::gate::{Gate, gate};
-use super::reply::{download, error, json_of, own_fault, page, refused};
+use super::reply::{download, error, json_of, nothing_here, own_fault, page, refused};
 use super::token::Token;
 use crate::Result;
 use crate::json::decode_part;
@@ -22,6 +22,9 @@ use crate::studio::{Action, Studio};
 
 /// A law within JSON, where a character may take six, and the words around it.
 const LARGEST_ACTION_BYTES: usize = 2 * LONGEST_DRAFT_BYTES;
+
+/// A draft, and the one that it takes the place of.
+const LARGEST_LAW_BYTES: usize = 2 * LARGEST_ACTION_BYTES;
 
 type Shared = State<Arc<Studio>>;
 
@@ -40,6 +43,7 @@ pub(super) fn router(studio: Arc<Studio>, port: u16, token: Token) -> Router {
         .route(&at("api/report"), get(report))
         .route(&at("api/session"), get(session).post(open_session))
         .route(page.trim_end_matches('/'), get(Redirect::permanent(&page)))
+        .fallback(async || nothing_here())
         .method_not_allowed_fallback(async || {
             let problem = "this can't be asked for in this way";
             let mend = "use GET, or POST for acts, laws and sessions";
@@ -77,14 +81,17 @@ async fn act(studio: Shared, body: Body) -> Response {
 #[serde(deny_unknown_fields)]
 struct Typed {
     draft: String,
+    /// The draft that it takes the place of, and no other.
+    instead_of: Option<String>,
 }
 
 async fn law(studio: Shared, body: Body) -> Response {
-    let typed: Typed = match read(body, LARGEST_ACTION_BYTES, decode_part).await {
+    let typed: Typed = match read(body, LARGEST_LAW_BYTES, decode_part).await {
         Ok(typed) => typed,
         Err(response) => return *response,
     };
-    let checked = move |studio: &Studio| studio.check_law(&typed.draft);
+    let checked =
+        move |studio: &Studio| studio.check_law(&typed.draft, typed.instead_of.as_deref());
     answered(studio, checked, |check| json_of(&check)).await
 }
 

@@ -161,6 +161,11 @@ fn a_pose_moves_in_time_and_noise_is_stated() {
     let own = studio.act(json!({"do": "noise"}));
     assert_eq!(current(&own, "did"), "noise as in the scene");
     assert_eq!(current(&own, "chi2"), current(&before, "chi2"));
+    // No orientation is measured: there is none to speak of.
+    let alone = studio.act(json!({"do": "noise", "position": 0.004}));
+    assert_eq!(current(&alone, "did"), "noise 4 mm");
+    assert_eq!(current(&alone, "chi2"), current(&noisy, "chi2"));
+    assert_eq!(studio.again().state()["edits"], alone["edits"]);
 }
 
 /// Of a pose that is as good as not there, nothing is left in the fit; its bar is in the plots.
@@ -217,7 +222,7 @@ fn what_cannot_be_done_is_said_with_its_mend() {
             "how many times as noisy",
         ),
         (json!({"do": "pose_noise", "body": "ball", "observation": 1}), "add `scale`"),
-        (json!({"do": "noise", "position": 0.001}), "give both"),
+        (json!({"do": "noise", "orientation": 0.01}), "give both"),
         (json!({"do": "noise", "position": 0, "orientation": 1}), "above 0"),
         (json!({"do": "go", "variant": 17}), "there are 0 to 1"),
         (json!({"do": "redo"}), "choose a variant of the tree"),
@@ -234,6 +239,8 @@ fn what_cannot_be_done_is_said_with_its_mend() {
         let told = error["mend"].as_str().unwrap_or_default();
         assert!(told.contains(mend), "{action}: {error}");
     }
+    let error = Running::of("boxes.json").refused(json!({"do": "noise", "position": 0.001}));
+    assert!(error["mend"].as_str().unwrap().contains("give both"), "{error}");
     // So many that too few are left for a collision.
     let last = (0..40).find_map(|observation| {
         let action =

@@ -152,3 +152,20 @@ fn a_session_that_takes_a_double_out_opens() {
     saved["variants"][3]["change"]["effect"] = json!("your_drag");
     assert_eq!(other.post("api/session", &saved.to_string()).status, 409);
 }
+
+/// What another one has typed meanwhile isn't overwritten by who doesn't know of it.
+#[test]
+fn a_draft_takes_the_place_of_the_one_that_it_names() {
+    let studio = Running::of("thrown_ball_drag.json");
+    let send = |draft: &str, known: &str| {
+        let typed = json!({"draft": draft, "instead_of": known}).to_string();
+        studio.post("api/law", &typed)
+    };
+    assert_eq!(send("a", "").status, 200);
+    assert_eq!(send("ab", "a").status, 200);
+    let late = send("x", "a");
+    assert_eq!((late.status, &late.value()["error"]["place"]), (409, &json!("instead_of")));
+    assert_eq!(studio.state()["draft"], "ab");
+    // What is there already takes nobody's place.
+    assert_eq!(send("ab", "whatever").status, 200);
+}

@@ -25,9 +25,10 @@ fn busy(studio: &Running) -> Value {
     studio.state()
 }
 
-/// But for the number that only counts what happened.
+/// But for the number that only counts what happened, and where it did.
 fn timeless(mut state: Value) -> Value {
     state["revision"] = Value::Null;
+    state["session"] = Value::Null;
     state
 }
 
@@ -111,14 +112,25 @@ fn another_scene_s_session_is_refused() {
     let error = &answer.value()["error"];
     assert_eq!(error["place"], "scene");
     assert!(error["mend"].as_str().unwrap().contains("its own scene"), "{error}");
-    // The scene's file has changed.
+}
+
+/// What was changed is told, and what to do; what changes no fit is no reason to stop.
+#[test]
+fn a_scene_that_was_changed_since_is_told_by_what_was_changed() {
+    let studio = Running::of(BALL);
+    let before = studio.add("quadratic_drag@ball");
     let folder = studio.killed();
     let path = folder.path().join(BALL);
-    fs::write(&path, fs::read_to_string(&path).unwrap().replace("9.81", "9.8")).unwrap();
-    fs::write(&path, fs::read_to_string(&path).unwrap() + "\n").unwrap();
+    let own = fs::read_to_string(&path).unwrap();
+    fs::write(&path, own.replace("a light ball", "another name") + "\n").unwrap();
+    let same = Running::in_folder(folder, BALL);
+    assert_eq!(same.state()["variants"], before["variants"]);
+    let folder = same.killed();
+    fs::write(&path, own.replace("9.81", "9.8").replace("0.001", "0.002")).unwrap();
     let told = Running::refusal(folder, BALL);
-    assert!(told.contains("thrown_ball_drag.session.json: scene: is another one"), "{told}");
-    assert!(told.contains("--session FILE"), "{told}");
+    assert!(told.contains("thrown_ball_drag.session.json: scene: isn't as it was"), "{told}");
+    assert!(told.contains("`gravity` is 9.8, and was 9.81; `noise.position` is 0.002"), "{told}");
+    assert!(told.contains("move or remove the session"), "{told}");
 }
 
 /// What an editor or a copy put there is somebody's work, too.

@@ -78,8 +78,7 @@ fn json_that_is_none_gets_a_place_and_a_mend() {
 #[test]
 fn huge_bodies_are_refused() {
     let studio = Running::of(SCENE);
-    for (path, limit) in [("api/act", 512 << 10), ("api/law", 512 << 10), ("api/session", 8 << 20)]
-    {
+    for (path, limit) in [("api/act", 512 << 10), ("api/law", 1 << 20), ("api/session", 8 << 20)] {
         let answer = studio.post(path, &" ".repeat(limit + 1));
         // A server that doesn't read to the end may break off before it is heard.
         assert!(matches!(answer.status, 413 | 0), "{path}: {}", answer.status);
@@ -120,6 +119,42 @@ fn whoever_asks_nothing_keeps_nobody_out() {
     let mut answer = String::new();
     patient.read_to_string(&mut answer).unwrap();
     assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+}
+
+/// Whose request or answer is on its way stays, though all places are taken, as long as there are others
+/// who ask nothing.
+#[test]
+fn whoever_is_slow_with_a_body_is_not_sent_away_for_who_asks_nothing() {
+    let studio = Running::of(SCENE);
+    let host = format!("Host: 127.0.0.1:{}\r\n", studio.port);
+    let body = r#"{"do": "add", "effect": "quadratic_drag@ball"}"#;
+    let mut sends = studio.connected();
+    let head = format!(
+        "POST {}api/act HTTP/1.1\r\n{host}X-Smash: 1\r\nConnection: close\r\nContent-Length: {}\r\n\r\n",
+        studio.base,
+        body.len()
+    );
+    sends.write_all(format!("{head}{}", &body[..9]).as_bytes()).unwrap();
+    // More than sockets hold, and nobody reads it yet.
+    let state = format!("GET {}api/state HTTP/1.1\r\n{host}", studio.base);
+    let length = studio.get("api/state").body.len();
+    let count = 1 + (16 << 20) / length;
+    let asked =
+        format!("{state}\r\n").repeat(count - 1) + &format!("{state}Connection: close\r\n\r\n");
+    let mut reads = studio.connected();
+    reads.write_all(asked.as_bytes()).unwrap();
+    let mut first = [0; 8];
+    reads.read_exact(&mut first).unwrap();
+    let idle: Vec<_> = (0..300).map(|_| studio.connected()).collect();
+    assert_eq!(studio.state()["current"], 0);
+    sends.write_all(&body.as_bytes()[9..]).unwrap();
+    let mut answer = String::new();
+    sends.read_to_string(&mut answer).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+    let mut rest = Vec::new();
+    let _ = reads.read_to_end(&mut rest);
+    assert!(rest.len() > count * length, "{} of {} bytes", rest.len(), count * length);
+    drop(idle);
 }
 
 /// Half a head, half a body: after ten seconds the server has no more patience.

@@ -17,9 +17,9 @@ fn saved(studio: &Running) -> Value {
 type Edit = fn(&mut Value);
 
 /// What is broken, and a part of what is then said.
-const CASES: [(Edit, &str, &str); 27] = [
-    (|s| s["schema"] = json!("smash.session/2"), "schema", "smash.session/1"),
-    (|s| s["schema"] = json!("smash.scene/1"), "schema", "smash.session/1"),
+const CASES: [(Edit, &str, &str); 28] = [
+    (|s| s["schema"] = json!("smash.session/2"), "the session", "smash.session/1"),
+    (|s| s["schema"] = json!("smash.result/1"), "the session", "smash report SCENE RESULT"),
     (|s| s["extra"] = json!(1), "extra", "known here"),
     (|s| s["drafts"] = json!(""), "drafts", "did you mean `draft`?"),
     (|s| drop(s.as_object_mut().unwrap().remove("variants")), "the session", "add `variants`"),
@@ -32,7 +32,15 @@ const CASES: [(Edit, &str, &str); 27] = [
     (|s| s["compared"] = json!([7]), "compared[0]", "there are 0 to 2"),
     (|s| s["compared"] = json!([0, 1, 2, 0, 1, 2]), "compared", "keep 4"),
     (|s| s["draft"] = json!("x".repeat(300_000)), "draft", "a page of text"),
-    (|s| s["scene"]["sha256"] = json!("0"), "scene", "its own scene"),
+    (|s| s["scene"] = json!({"name": "ball", "sha256": "0"}), "scene", "its own scene"),
+    (
+        |s| {
+            s["scene"]["sha256"] = json!("0");
+            s["scene"]["content"] = json!({"bodies": [{"observations": {"checks": 1}}], "é": []});
+        },
+        "scene",
+        "its own scene",
+    ),
     (|s| s["variants"][0]["parent"] = json!(1), "variants[0]", "the first variant"),
     (|s| s["variants"][2]["parent"] = json!(2), "variants[2].parent", "before their children"),
     (|s| s["variants"][1]["parent"] = json!(null), "variants[1].parent", "only the first"),

@@ -15,6 +15,9 @@ export class Refusal extends Error {
   }
 }
 
+/** Whether the server runs, but no longer at this page's address. */
+export const isAway = ({ status }: Refusal): boolean => status === 403 || status === 404;
+
 /** The server doesn't answer. */
 export class ConnectionLost extends Error {}
 
@@ -22,7 +25,9 @@ export const api = {
   state: () => json<StudioState>('api/state'),
   revision: async () => (await json<{ revision: number }>('api/revision')).revision,
   act: (action: Action) => post<StudioState>('api/act', JSON.stringify(action)),
-  law: (draft: string) => post<CheckedLaw>('api/law', JSON.stringify({ draft })),
+  /** Refused at the place `instead_of` where the server's draft is neither of both. */
+  law: (draft: string, insteadOf: string) =>
+    post<CheckedLaw>('api/law', JSON.stringify({ draft, instead_of: insteadOf })),
   diagnosis: (signal: AbortSignal) => json<Diagnosis>('api/diagnosis', { signal }),
   openSession: (text: string) => post<StudioState>('api/session', text),
   file: async (name: 'report' | 'session') => (await answer(`api/${name}`)).blob(),

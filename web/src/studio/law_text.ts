@@ -49,6 +49,10 @@ export class LawText {
     this.field.focus();
   }
 
+  blur(): void {
+    this.field.blur();
+  }
+
   mark(mistakes: Mistake[]): void {
     const parts: (Node | string)[] = [];
     this.field.value.split('\n').forEach((line, index) => {

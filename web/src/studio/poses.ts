@@ -8,6 +8,8 @@ import type { Action, StudioState } from '../studio_state';
 import { table } from '../table';
 import { ErrorLine } from './error_line';
 import { noiseForm } from './noise_form';
+import { factsOf, NO_FACTS } from './pose_facts';
+import type { Facts } from './pose_facts';
 import type { Studio } from './studio';
 import { ANY, typed } from './typed';
 
@@ -203,28 +205,4 @@ export class Poses {
     field.value = field.defaultValue;
     field.checked = field.defaultChecked;
   }
-}
-
-/** What the plots tell of a pose. */
-interface Facts {
-  /** The largest of its residuals, in σ; null where there is no noise. */
-  farthest: number | null;
-  /** Its own σ over that of the others. */
-  scale: number;
-}
-
-const NO_FACTS: Facts = { farthest: null, scale: 1 };
-
-function factsOf(state: StudioState, body: string): Map<number, Facts> {
-  const facts = new Map<number, Facts>();
-  for (const { body: owner, sigma, points } of state.report.models[0]?.series ?? []) {
-    if (owner !== body) continue;
-    for (const point of points) {
-      const scale = point.noise_scale ?? 1;
-      const off = sigma ? Math.abs(point.value) / (sigma * scale) : null;
-      const known = facts.get(point.observation)?.farthest ?? null;
-      facts.set(point.observation, { farthest: off === null ? known : Math.max(off, known ?? 0), scale });
-    }
-  }
-  return facts;
 }

@@ -2,7 +2,7 @@
 
 import { Signal } from '../signal';
 import type { Action, StudioState } from '../studio_state';
-import { api, ConnectionLost, Refusal } from './api';
+import { api, ConnectionLost, isAway, Refusal } from './api';
 import type { ErrorLine } from './error_line';
 
 /** Whether the server answers; `refused` where it does, but no longer to this page's address. */
@@ -70,8 +70,7 @@ export class Studio {
   /** What any request's failure means for the connection. */
   heed(error: unknown): void {
     if (error instanceof ConnectionLost) this.connection.set('lost');
-    else if (error instanceof Refusal && (error.status === 403 || error.status === 404))
-      this.connection.set('refused');
+    else if (error instanceof Refusal && isAway(error)) this.connection.set('refused');
     else return;
     this.wait = 500;
     this.pollLater();
@@ -87,18 +86,23 @@ export class Studio {
     this.retry = window.setTimeout(() => void this.poll(), this.wait);
   }
 
-  /** Sees whether another browser changed something, or whether the server is there again. */
-  private async poll(): Promise<void> {
-    const wasAway = this.connection.value !== 'there';
+  /** Whether what is shown is what the server has, which another browser may have changed. */
+  async look(): Promise<boolean> {
     try {
       const isNewer = (await api.revision()) > this.state.value.revision;
       if (isNewer) this.take(await api.state());
       else this.answered();
+      return true;
     } catch (error) {
-      const longer = Math.min(2 * this.wait, LONGEST_WAIT_MS);
       this.heed(error);
-      this.wait = wasAway ? longer : this.wait;
+      return false;
     }
+  }
+
+  private async poll(): Promise<void> {
+    const wasAway = this.connection.value !== 'there';
+    const longer = Math.min(2 * this.wait, LONGEST_WAIT_MS);
+    if (!(await this.look()) && wasAway) this.wait = longer;
     this.pollLater();
   }
 }
