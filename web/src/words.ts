@@ -30,8 +30,14 @@ const FLAGS: Record<string, [meaning: string, advice: string]> = {
   ],
 };
 
-/** A flag's doubt and what to do about it; a flag of a later version keeps its name. */
-export function flagInWords(flag: string): { meaning: string; advice: string } {
+/** What is doubtful, and what to do about it. */
+export interface Doubt {
+  meaning: string;
+  advice: string;
+}
+
+/** A flag in words; one of a later version keeps its name. */
+export function flagInWords(flag: string): Doubt {
   const [meaning, advice] = FLAGS[flag] ?? [plain(flag), ''];
   return { meaning, advice };
 }

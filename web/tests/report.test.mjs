@@ -270,6 +270,24 @@ test('a poor fit is a doubt, except where the diagnosis of that model explains i
     },
   ));
 
+test('a restitution beyond 1 is a doubt, also where its interval reaches what can be', async () => {
+  const with9 = (name, flags, interval) =>
+    changed(report, name, (data) => {
+      const { result } = data.models[0];
+      result.restitution = { value: 9.0, std: 4.2, interval_95: interval };
+      result.flags = flags;
+    });
+  const doubts = async (page) => (await page.getByTestId('flags').textContent()).match(/restitution/g).length;
+  await looked(with9('unsure.html', [], [0.77, 17.2]), async (page) => {
+    assert.match(await page.getByTestId('flags').textContent(), /the poses hardly tell it.*Mend: annotate/);
+    assert.equal(await doubts(page), 1);
+  });
+  await looked(with9('beyond.html', ['restitution_out_of_range'], [8, 10]), async (page) => {
+    assert.match(await page.getByTestId('flags').textContent(), /would gain energy/);
+    assert.equal(await doubts(page), 1);
+  });
+});
+
 test('the commands that make it again can be copied', () =>
   looked(report, async (page) => {
     const commands = await page.getByTestId('commands').textContent();

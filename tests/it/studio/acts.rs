@@ -41,6 +41,10 @@ fn an_effect_is_added_as_the_command_line_does() {
     let effect = smash::effect::EffectRequest::parse(DRAG).unwrap();
     let options = RefinedOptions { effects: vec![effect], ..RefinedOptions::default() };
     let result = smash::reconstruct(&scene, &Options::Refined(options)).unwrap();
+    let base = smash::reconstruct(&scene, &Options::default()).unwrap();
+    let flags = |state: &Value| state["report"]["models"][0]["result"]["flags"].clone();
+    assert_eq!((flags(&first), flags(&state)), (json!(base.flags), json!(result.flags)));
+    assert_eq!(flags(&first), json!(["poor_fit"]));
     assert_eq!(rmse(&state), result.fit.position_rmse);
     assert_eq!(current(&state, "restitution"), &json!(result.restitution.value));
     // The report is of this variant.

@@ -5,6 +5,7 @@ import type { Child } from '../element';
 import { angle, length, significant, withDeviation, withUnit } from '../numbers';
 import type { Estimate, Model, Report } from '../report';
 import { flagInWords, label } from '../words';
+import type { Doubt } from '../words';
 
 export function summary(report: Report, model: Model | null): HTMLElement[] {
   if (model === null) return [element('p', {}, 'This report holds no result.')];
@@ -131,16 +132,11 @@ function flags(report: Report, model: Model): HTMLElement[] {
   // Where the diagnosis names what is missing, the fit's being poor is no further doubt.
   const isExplained = diagnosisOf(report, model)?.verdict === 'missing';
   const left = model.result.flags.filter((flag) => flag !== 'poor_fit' || !isExplained);
-  if (left.length === 0) return [];
-  const items = left.map((flag) => {
-    const { meaning, advice } = flagInWords(flag);
-    return element(
-      'li',
-      {},
-      meaning,
-      advice === '' ? '' : element('span', { class: 'hint' }, ` Mend: ${advice}.`),
-    );
-  });
+  const doubts = [...left.map(flagInWords), ...unsureRestitution(model)];
+  if (doubts.length === 0) return [];
+  const items = doubts.map(({ meaning, advice }) =>
+    element('li', {}, meaning, advice === '' ? '' : element('span', { class: 'hint' }, ` Mend: ${advice}.`)),
+  );
   return [
     element(
       'div',
@@ -148,5 +144,19 @@ function flags(report: Report, model: Model): HTMLElement[] {
       element('p', { class: 'label' }, 'Doubts'),
       element('ul', {}, ...items),
     ),
+  ];
+}
+
+/** Beyond what can be, and no failed fit: its interval holds what can. */
+function unsureRestitution({ result }: Model): Doubt[] {
+  const { value } = result.restitution;
+  const isPossible = typeof value !== 'number' || (value >= 0 && value <= 1);
+  if (isPossible || result.flags.includes('restitution_out_of_range')) return [];
+  return [
+    {
+      meaning:
+        'the restitution is not between 0 and 1, but its 95 % interval reaches there: the poses hardly tell it',
+      advice: 'annotate more poses near the collision, and longer flights',
+    },
   ];
 }
