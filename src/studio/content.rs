@@ -20,6 +20,9 @@ pub(super) fn content(scene: &Scene) -> Map<String, Value> {
     let mut file = scene.to_file();
     file.name.clear();
     file.source = None;
+    if let Some(camera) = &mut file.camera {
+        camera.more.clear();
+    }
     let poses: Vec<_> = file.bodies.iter_mut().map(|body| body.observations.take()).collect();
     let mut tree = json!(file);
     for (body, poses) in poses.iter().enumerate() {
