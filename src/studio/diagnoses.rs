@@ -5,7 +5,11 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::locked;
+use super::session::Session;
+use super::{Studio, locked, shown};
+use crate::diagnose::diagnose;
+use crate::effect::EffectRequest;
+use crate::reconstruct::RefinedOptions;
 use crate::{Diagnosis, Error, ErrorKind, Result, Scene};
 
 /// Diagnoses that are kept.
@@ -93,6 +97,44 @@ impl Diagnoses {
         asked.push(Asked { subject, found: found.clone() });
         found
     }
+}
+
+impl Studio {
+    /// Which effect the current variant lacks; found once, and kept. Acts don't wait for it.
+    ///
+    /// # Errors
+    /// The scene can't be diagnosed, or another variant is the current one by now.
+    pub fn diagnosis(&self) -> Result<Diagnosis> {
+        self.diagnosis_by(diagnose)
+    }
+
+    /// The same, as `diagnose` finds it.
+    pub(super) fn diagnosis_by(
+        &self,
+        diagnose: impl FnOnce(&Scene, &RefinedOptions, &[EffectRequest]) -> Result<Diagnosis> + Send,
+    ) -> Result<Diagnosis> {
+        let shown = self.shown();
+        check_size(&shown.fit.scene)?;
+        let variant = shown.session.tree.current;
+        let further: Vec<_> = shown.session.laws().into_iter().map(shown::request).collect();
+        let effects = shown.session.requests(&self.scene);
+        let options = RefinedOptions { effects, ..RefinedOptions::default() };
+        let diagnosed = || {
+            let mut found = diagnose(&shown.fit.scene, &options, &further)?;
+            for line in &mut found.advice {
+                *line = named(line, &self.scene_word);
+            }
+            Ok(found)
+        };
+        let is_stale = || self.shown().session.tree.current != variant;
+        self.diagnoses.found(subject(&shown.session), diagnosed, is_stale)
+    }
+}
+
+/// What a diagnosis is of while `session` is seen.
+pub(super) fn subject(session: &Session) -> Subject {
+    let laws = session.laws().into_iter().map(|law| law.text).collect();
+    Subject { variant: session.tree.current, laws }
 }
 
 /// Refuses what would take all memory, and the studio with it.

@@ -7,11 +7,13 @@
 //! ```
 
 mod action;
+mod action_fields;
 mod content;
 mod diagnoses;
 mod edits;
 mod file;
 mod fits;
+mod kept;
 mod law;
 mod lock;
 mod model;
@@ -37,18 +39,15 @@ pub use session_scene::SessionScene;
 pub use state::{CatalogueEffect, LawView, Limits, STUDIO_SCHEMA, StudioState, VariantView};
 pub use tree::Numbers;
 
-use diagnoses::{Diagnoses, Subject};
+use diagnoses::Diagnoses;
 use file::{LARGEST_SESSION_BYTES, LONGEST_DRAFT_BYTES};
 use fits::Fits;
 use save::Save;
 use session::Session;
 use shown::Shown;
 
-use crate::diagnose::diagnose;
-use crate::effect::EffectRequest;
 use crate::files::{display_name, read_text, sha256, shell_word};
-use crate::reconstruct::RefinedOptions;
-use crate::{Diagnosis, Error, ErrorKind, Result, Scene};
+use crate::{Error, Result, Scene};
 
 /// A scene, and a session of models of it. Any number of threads may use it at once.
 #[derive(Debug)]
@@ -176,78 +175,6 @@ impl Studio {
         Ok(law::check(&self.scene, draft, shown.revision))
     }
 
-    /// Which effect the current variant lacks; found once, and kept. Acts don't wait for it.
-    ///
-    /// # Errors
-    /// The scene can't be diagnosed, or another variant is the current one by now.
-    pub fn diagnosis(&self) -> Result<Diagnosis> {
-        self.diagnosis_by(diagnose)
-    }
-
-    /// The same, as `diagnose` finds it.
-    fn diagnosis_by(
-        &self,
-        diagnose: impl FnOnce(&Scene, &RefinedOptions, &[EffectRequest]) -> Result<Diagnosis> + Send,
-    ) -> Result<Diagnosis> {
-        let shown = self.shown();
-        diagnoses::check_size(&shown.fit.scene)?;
-        let variant = shown.session.tree.current;
-        let further: Vec<_> = shown.session.laws().into_iter().map(shown::request).collect();
-        let effects = shown.session.requests(&self.scene);
-        let options = RefinedOptions { effects, ..RefinedOptions::default() };
-        let diagnosed = || {
-            let mut found = diagnose(&shown.fit.scene, &options, &further)?;
-            for line in &mut found.advice {
-                *line = diagnoses::named(line, &self.scene_word);
-            }
-            Ok(found)
-        };
-        let is_stale = || self.shown().session.tree.current != variant;
-        self.diagnoses.found(subject(&shown.session), diagnosed, is_stale)
-    }
-
-    /// The page of the current variant and those that are compared, to be kept; with the diagnosis, if
-    /// it was asked for.
-    ///
-    /// # Errors
-    /// This build has no page.
-    pub fn report_page(&self) -> Result<String> {
-        let shown = self.shown();
-        let mut report = shown.report();
-        report.diagnosis = self.diagnoses.known(&subject(&shown.session));
-        report.commands = self.commands();
-        crate::report::page(&report)
-    }
-
-    /// The session's file, as it is saved.
-    ///
-    /// # Errors
-    /// It is too large.
-    pub fn session_json(&self) -> Result<String> {
-        SessionFile::of(&self.shown().session, &self.identity).to_json()
-    }
-
-    /// Adds the variants of a saved session of the same scene, and goes to the one that it shows. What
-    /// was there stays; so does the draft, unless it is empty.
-    ///
-    /// # Errors
-    /// It is no session of this scene, a model can't be fitted, or the session can't be saved; nothing
-    /// is changed.
-    pub fn open_session(&self, text: &str) -> Result<StudioState> {
-        let opened = opened_file(text)?.session(&self.scene, &self.identity)?;
-        let mut acting = locked(&self.acting);
-        let before = self.shown();
-        let mut session = before.session.clone();
-        session.tree.graft(&opened.tree)?;
-        session.check_laws()?;
-        if session.draft.trim().is_empty() {
-            session.draft = opened.draft;
-        }
-        let after = self.fitted(&mut acting, session, &before)?;
-        let shown = self.show(&mut acting, after)?;
-        Ok(self.state_of(&shown))
-    }
-
     /// Where the session is saved.
     pub fn session_file(&self) -> &str {
         &self.session_file
@@ -282,27 +209,6 @@ impl Studio {
     fn shown(&self) -> Arc<Shown> {
         locked(&self.shown).clone()
     }
-}
-
-/// A session that somebody chose among files of all kinds.
-fn opened_file(text: &str) -> Result<SessionFile> {
-    let name = "the session";
-    SessionFile::parse(text, name).map_err(|error| match error.place() {
-        Some("schema") => {
-            let problem = format!("it {}, and no session", error.problem());
-            Error::new(ErrorKind::Invalid, problem).in_file(name).mend(format!(
-                "open a file that a studio saved (`{SESSION_SCHEMA}`), such as NAME.session.json; a \
-                 result is for `smash report SCENE RESULT`"
-            ))
-        }
-        _ => error,
-    })
-}
-
-/// What a diagnosis is of while `session` is seen.
-fn subject(session: &Session) -> Subject {
-    let laws = session.laws().into_iter().map(|law| law.text).collect();
-    Subject { variant: session.tree.current, laws }
 }
 
 /// What a panicked thread left is whole: it is only ever replaced.

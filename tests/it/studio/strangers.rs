@@ -18,8 +18,8 @@ type Edit = fn(&mut Value);
 
 /// What is broken, and a part of what is then said.
 const CASES: [(Edit, &str, &str); 28] = [
-    (|s| s["schema"] = json!("smash.session/2"), "the session", "smash.session/1"),
-    (|s| s["schema"] = json!("smash.result/1"), "the session", "smash report SCENE RESULT"),
+    (|s| s["schema"] = json!("smash.session/2"), "the file", "smash.session/1"),
+    (|s| s["schema"] = json!("smash.result/1"), "the file", "smash report SCENE RESULT"),
     (|s| s["extra"] = json!(1), "extra", "known here"),
     (|s| s["drafts"] = json!(""), "drafts", "did you mean `draft`?"),
     (|s| drop(s.as_object_mut().unwrap().remove("variants")), "the session", "add `variants`"),
