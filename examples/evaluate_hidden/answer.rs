@@ -1,6 +1,6 @@
 //! What `diagnose` answers, and whether that is right.
 
-use smash::diagnose::Verdict;
+use smash::diagnose::{Diagnosis, Verdict};
 use smash::effect::EffectRequest;
 use smash::reconstruct::RefinedOptions;
 use smash::{Result, Scene};
@@ -25,16 +25,27 @@ impl Answer {
     /// # Errors
     /// As of [`smash::diagnose`].
     pub fn of(scene: &Scene) -> Result<Answer> {
-        let diagnosis = smash::diagnose(scene, &RefinedOptions::default(), &[])?;
+        Ok(Answer::by(&smash::diagnose(scene, &RefinedOptions::default(), &[])?))
+    }
+
+    /// That of throws together.
+    ///
+    /// # Errors
+    /// As of [`smash::diagnose_throws`].
+    pub fn of_throws(scenes: &[Scene]) -> Result<Answer> {
+        Ok(Answer::by(&smash::diagnose_throws(scenes, &RefinedOptions::default(), &[])?))
+    }
+
+    fn by(diagnosis: &Diagnosis) -> Answer {
         let is_named = diagnosis.verdict == Verdict::Missing;
         let first = diagnosis.candidates.first().filter(|_| is_named);
-        Ok(Answer {
+        Answer {
             verdict: diagnosis.verdict,
             first: first.map(|first| first.label()),
             alike: first.map_or(Vec::new(), |first| first.indistinguishable_from.clone()),
             stays_structured: diagnosis.stays_structured,
             names_other_laws: !diagnosis.other_laws.is_empty(),
-        })
+        }
     }
 
     /// In a word.

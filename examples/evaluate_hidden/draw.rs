@@ -51,17 +51,52 @@ pub fn hidden_scene(effects: &[&str], regime: Regime, seed: u64) -> Result<Case>
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(stream(effects, regime));
     for _ in 0..MOST_DRAWS {
-        let spec = bare(effects, regime, &mut random);
-        let noise = Noise {
-            position: random.random_range(0.001..0.005),
-            orientation: random.random_range(0.005..0.03),
-        };
+        let draw = kind(effects, &mut random);
+        let spec = bare(draw, regime, &mut random);
+        let noise = noise(&mut random);
         if let Some(simulation) = with_effects(spec, effects, noise, &mut random) {
             return case(format!("seed {seed}"), &simulation, noise, random.next_u64());
         }
     }
+    Err(too_weak(effects, seed))
+}
+
+/// Throws in all of which the same effect is hidden, as strong in all together as else in one.
+///
+/// # Errors
+/// As of [`hidden_scene`].
+pub fn hidden_throws(effect: &str, throws: usize, regime: Regime, seed: u64) -> Result<Vec<Case>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(stream(&[effect, "throws"], regime));
+    let share = 1.0 / throws as f64;
+    let mut drawn = || {
+        let draw = kind(&[effect], &mut random);
+        let noise = noise(&mut random);
+        let specs: Vec<_> = (0..throws).map(|_| bare(draw, regime, &mut random)).collect();
+        let base = simulate(&specs[0]).ok()?;
+        let hidden = Hidden::draw(effect, acted_on(effect, &base, &mut random), &base, &mut random);
+        let wanted = share * random.random_range(LEAST_LAMBDA.ln()..LARGEST_LAMBDA.ln()).exp();
+        let size = size_for([share * LEAST_LAMBDA, wanted], &specs[0], &hidden, noise)?;
+        let throw = |(index, spec): (usize, SimulationSpec)| {
+            let simulation = simulate(&hidden.put_in(spec, size)).ok()?;
+            case(format!("seed {seed} throw {index}"), &simulation, noise, random.next_u64()).ok()
+        };
+        specs.into_iter().enumerate().map(throw).collect::<Option<Vec<Case>>>()
+    };
+    let found = (0..MOST_DRAWS).find_map(|_| drawn());
+    found.ok_or_else(|| too_weak(&[effect], seed))
+}
+
+fn too_weak(effects: &[&str], seed: u64) -> Error {
     let problem = format!("no scene shows {} by seed {seed}", effects.join("+"));
-    Err(Error::new(ErrorKind::Invalid, problem).mend("leave one of them out"))
+    Error::new(ErrorKind::Invalid, problem).mend("leave one of them out")
+}
+
+fn noise(random: &mut ChaCha8Rng) -> Noise {
+    Noise {
+        position: random.random_range(0.001..0.005),
+        orientation: random.random_range(0.005..0.03),
+    }
 }
 
 /// Each kind draws numbers of its own.
@@ -70,19 +105,27 @@ fn stream(effects: &[&str], regime: Regime) -> u64 {
     letters.fold(regime as u64, |sum, byte| sum.wrapping_mul(257).wrapping_add(byte.into()))
 }
 
-/// A collision without effects and noise, seen as often as the regime says.
-fn bare(effects: &[&str], regime: Regime, random: &mut ChaCha8Rng) -> SimulationSpec {
+/// What collides, such that it can show the effects.
+fn kind(effects: &[&str], random: &mut ChaCha8Rng) -> fn(u64) -> SimulationSpec {
     let needs_pair = effects.iter().any(|name| matches!(*name, "time_offset" | "depth_scale"));
     let needs_floor = effects.contains(&"friction");
     let is_pair = needs_pair || (!needs_floor && random.random_bool(0.7));
     let needs_box = effects.contains(&"inertia");
     let is_box = needs_box || random.random_bool(0.6);
-    let draw = match (is_pair, is_box) {
+    match (is_pair, is_box) {
         (true, true) => SimulationSpec::random_cuboids,
         (true, false) => SimulationSpec::random_balls,
         (false, true) => SimulationSpec::random_box_drop,
         (false, false) => SimulationSpec::random_ball_drop,
-    };
+    }
+}
+
+/// A collision without effects and noise, seen as often as the regime says.
+fn bare(
+    draw: fn(u64) -> SimulationSpec,
+    regime: Regime,
+    random: &mut ChaCha8Rng,
+) -> SimulationSpec {
     let mut spec = draw(random.next_u64());
     for body in spec.bodies.iter_mut().filter(|body| body.shape.is_some()) {
         body.measure_orientation = None;
@@ -133,25 +176,30 @@ fn with_effects(
         let body = acted_on(name, &base, random);
         let hidden = Hidden::draw(name, body, &base, random);
         let wanted = random.random_range(LEAST_LAMBDA.ln()..LARGEST_LAMBDA.ln()).exp();
-        let size = size_for(wanted, &spec, &hidden, noise)?;
+        let size = size_for([LEAST_LAMBDA, wanted], &spec, &hidden, noise)?;
         all = hidden.put_in(all, size);
     }
     simulate(&all).ok()
 }
 
-/// How large the effect must be for a base fit to miss the exact poses by about `wanted`.
-fn size_for(wanted: f64, spec: &SimulationSpec, hidden: &Hidden, noise: Noise) -> Option<f64> {
+/// How large the effect must be for a base fit to miss the exact poses by about `wanted`, and by `least`.
+fn size_for(
+    [least, wanted]: [f64; 2],
+    spec: &SimulationSpec,
+    hidden: &Hidden,
+    noise: Noise,
+) -> Option<f64> {
     let lambda_at = |size: f64| {
         let simulation = simulate(&hidden.put_in(spec.clone(), size)).ok()?;
         lambda(simulation.scene_file, noise)
     };
     let first = lambda_at(1.0)?;
     if hidden.largest == 1.0 {
-        return (first >= LEAST_LAMBDA).then_some(1.0);
+        return (first >= least).then_some(1.0);
     }
     // χ² goes with the square of what is small.
     let size = (wanted / first).sqrt().min(hidden.largest);
-    (lambda_at(size)? >= LEAST_LAMBDA).then_some(size)
+    (lambda_at(size)? >= least).then_some(size)
 }
 
 /// χ² of the base model fitted to exact poses.

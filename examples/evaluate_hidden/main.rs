@@ -23,6 +23,7 @@ mod pair;
 mod single;
 mod strength;
 mod table;
+mod throws;
 mod time;
 
 use std::path::PathBuf;
@@ -33,7 +34,7 @@ use smash::Result;
 use smash::effect::catalogue;
 
 use case::Case;
-use draw::{Regime, hidden_scene};
+use draw::{Regime, hidden_scene, hidden_throws};
 
 /// Diagnoses and improves scenes with hidden effects, and holds the answers against the truth
 #[derive(Parser)]
@@ -53,6 +54,9 @@ struct Arguments {
     /// Scenes with a law that the catalogue hasn't got
     #[arg(long, default_value_t = 18)]
     outside: u64,
+    /// Sets of four throws with the same effect in each
+    #[arg(long, default_value_t = 14)]
+    throws: u64,
     /// Scenes of 2 × 20 poses to take the time of
     #[arg(long, default_value_t = 16)]
     timed: u64,
@@ -81,6 +85,11 @@ const PAIRS: [[&str; 2]; 8] = [
     ["com_offset", "quadratic_drag"],
     ["friction", "quadratic_drag"],
 ];
+
+/// Throws that are put together.
+const THROWS: usize = 4;
+/// Effects of single poses and moments, which no two throws share.
+const OF_ONE_THROW: [&str; 2] = ["outlier", "second_impact"];
 
 fn main() -> Result<()> {
     let arguments = Arguments::parse();
@@ -125,6 +134,13 @@ fn of_seeds(arguments: &Arguments) -> Result<()> {
     };
     let outside = in_parallel(&seeds(arguments.outside), outside)?;
     tell(&told(outside, unstated)?, outside::table)?;
+    let shared: Vec<&str> =
+        names.iter().copied().filter(|name| !OF_ONE_THROW.contains(name)).collect();
+    let throws = |seed: &u64| {
+        let name = shared[*seed as usize % shared.len()];
+        hidden_throws(name, THROWS, Regime::of_seed(*seed / shared.len() as u64), *seed)
+    };
+    tell(&in_parallel(&seeds(arguments.throws), throws)?, throws::table)?;
     let timed =
         |seed: &u64| hidden_scene(&[names[*seed as usize % names.len()]], Regime::Medium, *seed);
     let mut timed = in_parallel(&seeds(arguments.timed), timed)?;
@@ -143,7 +159,7 @@ fn of_folder(cases: Vec<Case>, unstated: bool) -> Result<()> {
 }
 
 /// Prints what `table` makes of the cases, if there are any.
-fn tell(cases: &[Case], table: fn(&[Case]) -> Result<String>) -> Result<()> {
+fn tell<T>(cases: &[T], table: fn(&[T]) -> Result<String>) -> Result<()> {
     if !cases.is_empty() {
         println!("{}", table(cases)?);
     }

@@ -107,6 +107,9 @@ fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) ->
              law of your own."
         )?,
     }
+    for one in &improvement.together {
+        writeln!(out, "{}", one.in_words())?;
+    }
     writeln!(out, "\nEach rung again")?;
     for command in again {
         writeln!(out, "  {command}")?;

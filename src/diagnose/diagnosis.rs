@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::rivals::OtherLaw;
+use super::together::Together;
 use super::unexplained::Unexplained;
 use crate::compare::ChannelTest;
 use crate::reconstruct::{ActiveEffect, ParameterEstimate};
@@ -46,6 +47,9 @@ pub struct Diagnosis {
     /// best candidate, or prefer to it; the best first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub other_laws: Vec<OtherLaw>,
+    /// Of several throws: their restitution and mass ratio put together, with the effect that is missing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub together: Vec<Together>,
     /// The answer in plain words.
     pub explanation: String,
     /// What to film or measure to tell candidates apart, and the command to type next.

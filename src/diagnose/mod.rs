@@ -20,6 +20,7 @@ mod ranking;
 mod rivals;
 mod swing;
 mod throws;
+mod together;
 mod unexplained;
 mod verdict;
 mod words;
@@ -29,6 +30,7 @@ pub use diagnosis::{
 };
 pub use rivals::OtherLaw;
 pub use throws::diagnose_throws;
+pub use together::{ThrowValue, Together};
 pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use candidates::{Candidate, all_candidates};
@@ -40,7 +42,8 @@ pub(crate) use leftover::Leftover;
 pub(crate) use pooled::{Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
 pub(crate) use rivals::rivals;
-pub(crate) use throws::{alike, instances, looks, put_best_first, reduced_chi2, throws};
+pub(crate) use throws::{alike, instances, looks, put_best_first, reduced_chi2, throws, with_own};
+pub(crate) use together::together;
 
 use rayon::prelude::*;
 

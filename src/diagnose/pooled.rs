@@ -15,6 +15,7 @@ use crate::reconstruct::refined::{Fitted, Instance, information_of_last};
 use crate::{Result, Scene};
 
 /// A throw, and the model as it is so far.
+#[derive(Clone)]
 pub(crate) struct Throw<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) fitted: Fitted,
@@ -32,7 +33,7 @@ pub(crate) struct PooledCandidate {
     pub(crate) values: Vec<f64>,
     /// Of θ̄, with the scatter; `None` where no throw tells it.
     pub(crate) stds: Vec<Option<f64>>,
-    /// By how much −2 ln L of all throws falls, over Birge's ratio squared.
+    /// By how much −2 ln L of all throws falls with θ̄ in each.
     pub(crate) delta: f64,
     pub(crate) parameters: usize,
     pub(crate) p_value: f64,
@@ -155,7 +156,7 @@ fn candidate(
     let spread = (parameters * (known.len() - 1)) as f64;
     let scatter2 = if spread > 0.0 { (q / spread).max(1.0) } else { 1.0 };
     let gain: f64 = known.iter().map(|own| own.gain).sum();
-    let delta = ((gain - q) / scatter2).max(0.0);
+    let delta = (gain - q).max(0.0);
     // Each throw by what the others say of it, against the null.
     let foretold: f64 = (0..known.len())
         .filter_map(|index| {

@@ -10,6 +10,7 @@ use super::diagnosis::{
 };
 use super::pooled::{Own, PooledCandidate, Throw, pooled};
 use super::ranking::TELLS_APART;
+use super::together::together;
 use super::verdict::EXPLAINS;
 use super::words::{explanation_of_throws, listed};
 use super::{Goodness, all_candidates, held_out_rmse_m, reported};
@@ -79,6 +80,13 @@ pub fn diagnose_throws(
         stays_structured,
         unexplained: Vec::new(),
         other_laws: Vec::new(),
+        together: match verdict {
+            Verdict::Missing => match with_own(&throws, &candidates[0]) {
+                Some(own) => together(&own)?,
+                None => Vec::new(),
+            },
+            _ => together(&throws)?,
+        },
         explanation: String::new(),
         advice: Vec::new(),
     };
@@ -163,6 +171,22 @@ fn with_effect<'a>(throws: &[Throw<'a>], effect: &PooledCandidate) -> Result<Vec
         Ok(Throw { scene: throw.scene, fitted })
     };
     throws.iter().enumerate().map(with).collect()
+}
+
+/// The throws with an effect more, each as it says itself: what it says of other quantities then is as
+/// sure as it knows the effect. `None` where one can't be flown with it.
+pub(crate) fn with_own<'a>(
+    throws: &[Throw<'a>],
+    effect: &PooledCandidate,
+) -> Option<Vec<Throw<'a>>> {
+    let with = |(throw, own): (&Throw<'a>, &Option<Own>)| {
+        let fitted = match own {
+            Some(own) => throw.fitted.with(throw.scene, &own.instance).ok()?,
+            None => throw.fitted.clone(),
+        };
+        Some(Throw { scene: throw.scene, fitted })
+    };
+    throws.iter().zip(&effect.own).map(with).collect()
 }
 
 /// How much less differences count where something is left in the residuals.

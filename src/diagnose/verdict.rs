@@ -91,6 +91,7 @@ pub(super) fn diagnosis(
         stays_structured,
         unexplained,
         other_laws,
+        together: Vec::new(),
         explanation: String::new(),
         advice: Vec::new(),
     };

@@ -28,6 +28,12 @@ pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
 
 /// What the `diagnosis` of `count` throws together says.
 pub(super) fn explanation_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
+    let together = diagnosis.together.iter().map(|one| one.in_words());
+    let sentences = std::iter::once(verdict_of_throws(diagnosis, count)).chain(together);
+    sentences.collect::<Vec<_>>().join(" ")
+}
+
+fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::Missing, Some(best)) => {
             let mut text = format!(

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnose::Verdict;
+use crate::diagnose::{Together, Verdict};
 use crate::{Reconstruction, Scene};
 
 /// The value of an improvement file's field `schema`.
@@ -27,6 +27,9 @@ pub struct Improvement {
     pub verdict: Verdict,
     /// That of the last rung; of several throws the first one's.
     pub result: Reconstruction,
+    /// Of several throws: their restitution and mass ratio on the last rung, put together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub together: Vec<Together>,
 }
 
 /// A model on the ladder.
@@ -70,6 +73,7 @@ impl Improvement {
             dropped,
             verdict,
             result,
+            together: Vec::new(),
         }
     }
 

@@ -4,7 +4,7 @@
 use super::{Improvement, Rung};
 use crate::diagnose::{
     Throw, Verdict, alike, held_out_rmse_m, instances, looks, pooled, put_best_first, reduced_chi2,
-    reported, throws,
+    reported, throws, together, with_own,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
@@ -25,6 +25,7 @@ pub fn improve_throws(
     further: &[EffectRequest],
 ) -> Result<Improvement> {
     let mut throws = throws(scenes, options)?;
+    let mut own = Some(throws.clone());
     let mut ladder = vec![rung(&throws, Vec::new())?];
     for _ in 0..MOST_EFFECTS {
         let mut candidates = pooled(&throws, &instances(&throws, further)?);
@@ -35,6 +36,7 @@ pub fn improve_throws(
         let alike = alike(&candidates, added, best.inflation);
         let alike = alike.map(|other| other.label.clone()).collect();
         throws = best.throws;
+        own = own.and_then(|own| with_own(&own, added));
         let known = ladder.last().map(|rung: &Rung| rung.with.clone()).unwrap_or_default();
         let with: Vec<String> = known.into_iter().chain(setting).collect();
         ladder.push(Rung {
@@ -51,7 +53,9 @@ pub fn improve_throws(
         (false, false) => Verdict::NothingMissing,
     };
     let result = reported(throws[0].scene, &throws[0].fitted)?;
-    Ok(Improvement::new(throws[0].scene, verdict, ladder, Vec::new(), result))
+    let together = own.map_or(Ok(Vec::new()), |own| together(&own))?;
+    let scene = throws[0].scene;
+    Ok(Improvement { together, ..Improvement::new(scene, verdict, ladder, Vec::new(), result) })
 }
 
 /// `NAME@BODY:k=0.03`: what `--with` takes for each throw.

@@ -10,6 +10,7 @@ mod piped;
 mod strange;
 mod stuck;
 mod swing;
+mod throws;
 mod unknown;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};

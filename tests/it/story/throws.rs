@@ -1,0 +1,95 @@
+//! Throws of the same objects together: what they share is found, also what none of them shows alone.
+
+use smash::diagnose::{Diagnosis, Verdict};
+use smash::reconstruct::RefinedOptions;
+use smash::{diagnose, diagnose_throws, improve_throws};
+
+use super::*;
+
+/// Throws of one ball with these factors of drag, each of its own speed; and each of another noise.
+fn thrown(factors: &[f64]) -> Vec<Scene> {
+    let throw = |(index, k): (usize, &f64)| {
+        let mut spec = annotated(SimulationSpec::random_ball_drop(1), index as u64);
+        spec.name = format!("throw {index}");
+        spec.bodies[0].velocity = Some([2.0 + 0.3 * index as f64, -4.0, 0.5]);
+        let drag = effect("quadratic_drag", Some("a"), &[("k", &[*k])]);
+        with(spec, if *k > 0.0 { std::slice::from_ref(&drag) } else { &[] }).scene
+    };
+    factors.iter().enumerate().map(throw).collect()
+}
+
+fn told(scenes: &[Scene]) -> Diagnosis {
+    diagnose_throws(scenes, &RefinedOptions::default(), &[]).unwrap()
+}
+
+#[test]
+fn throws_that_agree_name_what_acts_on_all() {
+    for count in [2, 3] {
+        let scenes = thrown(&vec![0.25; count]);
+        let diagnosis = told(&scenes);
+        assert_eq!(diagnosis.verdict, Verdict::Missing, "{}", diagnosis.explanation);
+        let first = &diagnosis.candidates[0];
+        let named = [first.label()].into_iter().chain(first.indistinguishable_from.clone());
+        assert!(named.into_iter().any(|name| name == "quadratic_drag@a"), "{first:?}");
+        let improvement = improve_throws(&scenes, &RefinedOptions::default(), &[]).unwrap();
+        assert_eq!(improvement.ladder.len(), 2, "{:?}", last(&improvement).with);
+        let reduced = last(&improvement).reduced_chi2.unwrap();
+        // Three deviations of χ²/dof of some 75 numbers a throw.
+        assert!((reduced - 1.0).abs() < 3.0 * (2.0 / (75.0 * count as f64)).sqrt(), "{reduced}");
+        let truth = SimulationSpec::random_ball_drop(1).collision.restitution.unwrap();
+        for together in [&diagnosis.together, &improvement.together] {
+            let restitution = &together[0];
+            let off = (restitution.value - truth) / restitution.std;
+            assert!(restitution.p_value > 1e-3 && off.abs() < 4.0, "{restitution:?}, not {truth}");
+        }
+    }
+}
+
+/// Their factors differ by 1.8 deviations, as one pair of throws in fourteen does by chance.
+#[test]
+fn chance_between_throws_does_not_hide_what_they_share() {
+    let path = format!("{}/scenes/thrown_ball_drag.spec.json", env!("CARGO_MANIFEST_DIR"));
+    let throw = |seed: u64| {
+        let name = format!("throw {seed}");
+        simulate(&SimulationSpec { name, seed, ..SimulationSpec::read(path.as_ref()).unwrap() })
+            .unwrap()
+    };
+    let diagnosis = told(&[throw(1).scene, throw(2).scene]);
+    assert_eq!(diagnosis.candidates[0].label(), "quadratic_drag@ball", "{}", diagnosis.explanation);
+    assert_eq!(diagnosis.verdict, Verdict::Missing);
+}
+
+#[test]
+fn what_no_throw_shows_alone_ten_show_together() {
+    let scenes = thrown(&[0.0008; 10]);
+    let alone = |scene: &Scene| diagnose(scene, &RefinedOptions::default(), &[]).unwrap();
+    let seen = scenes.iter().filter(|scene| alone(scene).verdict != Verdict::NothingMissing);
+    assert!(seen.count() <= 3, "it is too strong to be a test");
+    let diagnosis = told(&scenes);
+    assert_eq!(diagnosis.verdict, Verdict::Missing, "{}", diagnosis.explanation);
+    let first = &diagnosis.candidates[0];
+    let named = [first.label()].into_iter().chain(first.indistinguishable_from.clone());
+    assert!(named.into_iter().any(|name| name == "quadratic_drag@a"), "{first:?}");
+}
+
+#[test]
+fn throws_without_anything_hidden_show_nothing() {
+    let diagnosis = told(&thrown(&[0.0; 6]));
+    assert_eq!(diagnosis.verdict, Verdict::NothingMissing, "{}", diagnosis.explanation);
+}
+
+/// As of balls that aren't the same.
+#[test]
+fn throws_that_disagree_are_told_of() {
+    let diagnosis = told(&thrown(&[0.02, 0.04, 0.06, 0.08]));
+    let drag = diagnosis.candidates.iter().find(|one| one.effect == "quadratic_drag").unwrap();
+    let agreement = drag.throws.as_ref().unwrap();
+    assert!(agreement.p_value.unwrap() < 0.01 && agreement.scatter > 1.5, "{agreement:?}");
+    // Either something that each throw has of its own comes first, or it is said that they scatter.
+    let first = &diagnosis.candidates[0];
+    assert!(
+        first.effect == "external_impulse" || diagnosis.explanation.contains("scatter"),
+        "{}",
+        diagnosis.explanation
+    );
+}
