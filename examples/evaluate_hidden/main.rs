@@ -88,8 +88,8 @@ const PAIRS: [[&str; 2]; 8] = [
 
 /// Throws that are put together.
 const THROWS: usize = 4;
-/// Effects of single poses and moments, which no two throws share.
-const OF_ONE_THROW: [&str; 2] = ["outlier", "second_impact"];
+/// Effects of single poses and moments, and pushes, which no two throws share.
+const OF_ONE_THROW: [&str; 3] = ["external_impulse", "outlier", "second_impact"];
 
 fn main() -> Result<()> {
     let arguments = Arguments::parse();

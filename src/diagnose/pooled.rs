@@ -33,7 +33,8 @@ pub(crate) struct PooledCandidate {
     pub(crate) values: Vec<f64>,
     /// Of θ̄, with the scatter; `None` where no throw tells it.
     pub(crate) stds: Vec<Option<f64>>,
-    /// By how much −2 ln L of all throws falls with θ̄ in each.
+    /// By how much −2 ln L of all throws falls with θ̄ in each; over Birge's ratio squared, where they
+    /// disagree.
     pub(crate) delta: f64,
     pub(crate) parameters: usize,
     pub(crate) p_value: f64,
@@ -156,7 +157,10 @@ fn candidate(
     let spread = (parameters * (known.len() - 1)) as f64;
     let scatter2 = if spread > 0.0 { (q / spread).max(1.0) } else { 1.0 };
     let gain: f64 = known.iter().map(|own| own.gain).sum();
-    let delta = (gain - q).max(0.0);
+    let agreement = ChiSquared::new(spread).ok().map(|chi| chi.sf(q));
+    let disagree = agreement.is_some_and(|p| p < FALSE_ALARM);
+    // What chance lets scatter counts in full.
+    let delta = ((gain - q) / if disagree { scatter2 } else { 1.0 }).max(0.0);
     // Each throw by what the others say of it, against the null.
     let foretold: f64 = (0..known.len())
         .filter_map(|index| {
@@ -170,12 +174,9 @@ fn candidate(
         off.dot(&(&total * &off))
     };
     let single = significance(throws, &known, delta, count);
-    let agreement = ChiSquared::new(spread).ok().map(|chi| chi.sf(q));
     // Throws that contradict each other must agree at least on there being an effect.
     let by_scatter = match FisherSnedecor::new(count, spread) {
-        Ok(fisher) if agreement.is_some_and(|p| p < FALSE_ALARM) => {
-            fisher.sf(wald / count / scatter2)
-        }
+        Ok(fisher) if disagree => fisher.sf(wald / count / scatter2),
         _ => 0.0,
     };
     let numbers: f64 = throws.iter().map(|throw| throw.fitted.numbers()).sum();

@@ -344,9 +344,15 @@ fn advice(diagnosis: &Diagnosis) -> Vec<String> {
             }
             advice.push("look for more: smash improve SCENE SCENE …".to_string());
         }
-        (Verdict::UnknownEffect, _) => advice.push(
-            "diagnose the throws one by one: what is wrong may not be the same in all".to_string(),
-        ),
+        (Verdict::UnknownEffect, best) => {
+            advice.push(
+                "diagnose the throws one by one: what is wrong may not be the same in all"
+                    .to_string(),
+            );
+            if best.is_some_and(|best| best.stands_out) {
+                advice.push("look for several effects: smash improve SCENE SCENE …".to_string());
+            }
+        }
         _ => {}
     }
     advice

@@ -55,7 +55,7 @@ fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
         }
         (Verdict::UnknownEffect, _) => format!(
             "Many of the {count} throws are missed by more than their noise, and no effect that they \
-             could share explains it.{} A body that rolls, slides or lies on another is in no flight: \
+             could share explains it alone.{} A body that rolls, slides or lies on another is in no flight: \
              leave such poses out.",
             diagnosis.candidates.first().map_or(String::new(), nearest_of_throws)
         ),
@@ -67,19 +67,27 @@ fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
     }
 }
 
-/// A candidate that would stand out, did the throws not scatter so much.
+/// A candidate that helps, but isn't named: it leaves too much, or the throws scatter too much about it.
 fn nearest_of_throws(best: &CandidateReport) -> String {
-    let Some(agreement) = best.throws.as_ref().filter(|a| a.p_value.is_some_and(|p| p < 0.01))
-    else {
-        return String::new();
+    let agreement = best.throws.as_ref();
+    let scatters = agreement.filter(|a| a.p_value.is_some_and(|p| p < FALSE_ALARM));
+    let but = match scatters {
+        Some(agreement) => format!(
+            "the throws scatter {} times more about it than their own errors say, and so few prove \
+             nothing: film more of them",
+            significant(agreement.scatter, 2)
+        ),
+        None if best.stands_out => "it leaves too much to be the only cause".to_string(),
+        None => return String::new(),
     };
-    let parameters = parameters(best);
+    let values = match best.parameters.is_empty() {
+        true => String::new(),
+        false => format!(" ({})", parameters(best)),
+    };
     format!(
-        " The nearest is {} ({parameters}): it helps (χ² falls by {}), but the throws scatter {} times \
-         more about it than their own errors say, and so few prove nothing: film more of them.",
+        " The nearest is {}{values}: χ² falls by {} with it, but {but}.",
         best.label(),
-        significant(best.delta_chi2, 3),
-        significant(agreement.scatter, 2)
+        significant(best.delta_chi2, 3)
     )
 }
 
