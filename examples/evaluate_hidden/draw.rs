@@ -61,7 +61,8 @@ pub fn hidden_scene(effects: &[&str], regime: Regime, seed: u64) -> Result<Case>
     Err(too_weak(effects, seed))
 }
 
-/// Throws in all of which the same effect is hidden, as strong in all together as else in one.
+/// Throws in each of which the same effect is hidden with the same parameters, weaker in the first by
+/// their number than in a scene alone. Their objects are drawn anew: the laws don't mind.
 ///
 /// # Errors
 /// As of [`hidden_scene`].

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::diagnose::Verdict;
+use smash::diagnose::{Together, Verdict};
 use smash::files::{Output, print_bytes};
 use smash::improve::{Improvement, Rung};
 use smash::{Result, improve, improve_throws};
@@ -109,6 +109,9 @@ fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) ->
     }
     for one in &improvement.together {
         writeln!(out, "{}", one.in_words())?;
+    }
+    if improvement.verdict == Verdict::UnknownEffect && !improvement.together.is_empty() {
+        writeln!(out, "{}", Together::OF_A_POOR_MODEL)?;
     }
     writeln!(out, "\nEach rung again")?;
     for command in again {

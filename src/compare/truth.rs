@@ -79,9 +79,9 @@ fn true_values(truth: &Truth) -> Vec<Said> {
             all.push(said(&format!("{}.{quantity}", body.name), unit, vector));
         }
     }
-    for effect in &truth.effects {
+    for (index, effect) in truth.effects.iter().enumerate() {
         for (parameter, value) in &effect.parameters {
-            let name = format!("{}.{parameter}", label(effect));
+            let name = format!("{}.{parameter}", numbered(truth, index));
             all.push(said(&name, &unit(effect, parameter), value.components()));
         }
     }
@@ -91,13 +91,14 @@ fn true_values(truth: &Truth) -> Vec<Said> {
 /// What `result` says of the parameters of the effects that acted.
 fn parameters(truth: &Truth, result: &Reconstruction) -> Vec<Said> {
     let mut all = Vec::new();
-    for effect in &truth.effects {
+    for (index, effect) in truth.effects.iter().enumerate() {
         let name = effect_name(effect);
         let is_it = |active: &&ActiveEffect| {
             let everywhere = active.body.is_none() || effect.body.is_none();
             active.name == name && (everywhere || active.body == effect.body)
         };
-        let Some(active) = result.effects.iter().find(is_it) else { continue };
+        let before = namesakes_before(truth, index);
+        let Some(active) = result.effects.iter().filter(is_it).nth(before) else { continue };
         for (parameter, estimate) in &active.parameters {
             let numbers = |number: &Number| number.components().to_vec();
             let value = estimate.value.as_ref().map(numbers);
@@ -106,10 +107,26 @@ fn parameters(truth: &Truth, result: &Reconstruction) -> Vec<Said> {
             let std = stds.map_or(vec![None; count], |all| all.into_iter().map(Some).collect());
             let reason = value.is_none().then(|| NOT_DETERMINED.to_string());
             let entry = Entry { value, std, reason };
-            all.push((format!("{}.{parameter}", label(effect)), estimate.unit.clone(), entry));
+            let name = format!("{}.{parameter}", numbered(truth, index));
+            all.push((name, estimate.unit.clone(), entry));
         }
     }
     all
+}
+
+/// Its label; of one that acts again with a number.
+fn numbered(truth: &Truth, index: usize) -> String {
+    let label = label(&truth.effects[index]);
+    match namesakes_before(truth, index) {
+        0 => label,
+        before => format!("{label} {}", before + 1),
+    }
+}
+
+/// How many effects before number `index` have its label.
+fn namesakes_before(truth: &Truth, index: usize) -> usize {
+    let own = label(&truth.effects[index]);
+    truth.effects[..index].iter().filter(|other| label(other) == own).count()
 }
 
 fn label(effect: &EffectSpec) -> String {

@@ -39,7 +39,7 @@ pub struct Diagnosis {
     /// the catalogue has.
     #[serde(default)]
     pub stays_structured: bool,
-    /// The force and torque that are left over, with the best candidate if one is missing, the
+    /// The force, torque and swing that are left over, with the best candidate if one is missing, the
     /// clearest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unexplained: Vec<Unexplained>,

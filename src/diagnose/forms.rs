@@ -101,7 +101,11 @@ const ROWS: [Row; 13] = {
 
 static FORMS: LazyLock<Vec<LawForm>> = LazyLock::new(|| {
     let form = |(goes_with, kind, law, parameters, beyond): Row| {
-        let effect = law_of(hook(kind), law, parameters);
+        let own = |(name, unit, count): &(&str, &str, usize)| {
+            (name.to_string(), unit.to_string(), *count)
+        };
+        let parameters: Vec<Parameter> = parameters.iter().map(own).collect();
+        let effect = law_of(&[(hook(kind), law)], &parameters);
         LawForm { goes_with, kind, law, beyond, effect }
     };
     ROWS.into_iter().map(form).collect()
@@ -115,22 +119,32 @@ pub(super) fn forms() -> &'static [LawForm] {
 /// An acceleration or a torque that is any polynomial of this degree in time, on either side of the
 /// collision: the parameters of one side come first, in rising powers, then those of the other.
 pub(super) fn free(kind: Kind, degree: usize) -> Effect {
-    let unit = |power: usize| match kind {
-        Kind::Acceleration => format!("m/s^{}", 2 + power),
-        Kind::Torque => format!("m^2/s^{}", 2 + power),
-        Kind::Position => format!("m/s^{power}"),
-    };
-    let names = |side: &str| (0..=degree).map(|power| format!("{side}{power}")).collect::<Vec<_>>();
+    law_of(&[(hook(kind), &free_law(degree))], &free_parameters(kind, degree))
+}
+
+/// [`free`] beside another law.
+pub(super) fn free_beside(degree: usize, other: (&str, &str), own: &[Parameter]) -> Effect {
+    let kind = Kind::Acceleration;
+    let parameters = [free_parameters(kind, degree).as_slice(), own].concat();
+    law_of(&[(hook(kind), &free_law(degree)), other], &parameters)
+}
+
+fn free_law(degree: usize) -> String {
     let side = |side: &str| {
-        let term = |(power, name): (usize, String)| name + &" * (t - t_c)".repeat(power);
-        names(side).into_iter().enumerate().map(term).collect::<Vec<_>>().join(" + ")
+        let term = |power: usize| format!("{side}{power}") + &" * (t - t_c)".repeat(power);
+        (0..=degree).map(term).collect::<Vec<_>>().join(" + ")
     };
-    let law = format!("step(t_c - t) * ({}) + step(t - t_c) * ({})", side("b"), side("c"));
-    let units: Vec<String> = (0..=degree).map(unit).collect();
-    let [before, after] = ["b", "c"].map(names);
-    let names = before.iter().zip(&units).chain(after.iter().zip(&units));
-    let parameters: Vec<_> = names.map(|(name, unit)| (name.as_str(), unit.as_str(), 3)).collect();
-    law_of(hook(kind), &law, &parameters)
+    format!("step(t_c - t) * ({}) + step(t - t_c) * ({})", side("b"), side("c"))
+}
+
+fn free_parameters(kind: Kind, degree: usize) -> Vec<Parameter> {
+    let metres = if kind == Kind::Torque { "m^2" } else { "m" };
+    let sides = ["b", "c"].into_iter();
+    let powers = move |side| (0..=degree).map(move |power| (side, power));
+    sides
+        .flat_map(powers)
+        .map(|(side, power)| (format!("{side}{power}"), format!("{metres}/s^{}", 2 + power), 3))
+        .collect()
 }
 
 fn hook(kind: Kind) -> &'static str {
@@ -141,10 +155,15 @@ fn hook(kind: Kind) -> &'static str {
     }
 }
 
-/// The effect with this law, its parameters with unit and number of components, all 0 at the null.
-pub(super) fn law_of(hook: &str, law: &str, parameters: &[(&str, &str, usize)]) -> Effect {
-    let scope = if law.contains('W') { "scene" } else { "body" };
-    let turns = ["rotate", "w", "L"].iter().any(|word| law.contains(word)) || hook == "torque";
+/// Name, unit and number of components.
+pub(super) type Parameter = (String, String, usize);
+
+/// The effect with these laws by their hooks; all its parameters are 0 at the null.
+pub(super) fn law_of(laws: &[(&str, &str)], parameters: &[Parameter]) -> Effect {
+    let says = |word: &str| laws.iter().any(|(_, law)| law.contains(word));
+    let scope = if says("W") { "scene" } else { "body" };
+    let turns = ["rotate", "w", "L"].into_iter().any(says)
+        || laws.iter().any(|(hook, _)| *hook == "torque");
     let needs = if turns { "[\"orientation\"]" } else { "[]" };
     let mut text =
         format!("name = \"form\"\ntitle = \"A law\"\nscope = \"{scope}\"\nneeds = {needs}\n");
@@ -153,7 +172,8 @@ pub(super) fn law_of(hook: &str, law: &str, parameters: &[(&str, &str, usize)]) 
         let null = if *components == 1 { null } else { format!("[{null}]") };
         text += &format!("[parameters.{name}]\nunit = \"{unit}\"\nnull = {null}\n");
     }
-    text += &format!("[law]\n{hook} = \"{law}\"\n");
+    text += "[law]\n";
+    laws.iter().for_each(|(hook, law)| text += &format!("{hook} = \"{law}\"\n"));
     // The texts are made of the rows above, and a test makes each.
     Effect::parse(&text, "form").expect("the forms' texts are good")
 }

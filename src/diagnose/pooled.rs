@@ -4,7 +4,8 @@
 //! Near its optimum a throw's −2 ln L is (θ − θ̂)ᵀ I (θ − θ̂), with the estimate θ̂ and the information
 //! I after all its other unknowns. The sum over the throws has its optimum at θ̄ = (Σ I)⁻¹ Σ I θ̂, and
 //! what is left there, Q, tells whether they agree. Where they scatter more than their errors say,
-//! errors grow by Birge's ratio, and the scatter itself decides what is significant.
+//! errors grow by Birge's ratio; where that is more than chance, the scatter itself decides what is
+//! significant.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;

@@ -1,5 +1,6 @@
 //! Whether a tracked point goes round or to and fro beside the path: one that isn't the body's centre
-//! does, on a body that turns while its orientation isn't seen.
+//! does, on a body that turns while its orientation isn't seen. It is told only beside a force that
+//! changes slowly: what bends is no swing.
 
 use std::f64::consts::TAU;
 
@@ -7,12 +8,14 @@ use nalgebra::Vector3;
 
 use super::FALSE_ALARM;
 use super::evidence::by_chance;
-use super::forms::law_of;
+use super::forms::{Parameter, free, free_beside};
 use super::unexplained::{Form, Kind, Unexplained};
 use crate::reconstruct::refined::{Fitted, Gain, Instance, gains, possible};
 use crate::words::significant;
 use crate::{Result, Scene};
 
+/// Degree in time of the force, on either side of the collision, that a swing must show beside.
+const SLOW: usize = 1;
 /// Fewer poses in a flight show no swing.
 const LEAST_POSES: usize = 12;
 /// Half cycles in a flight: fewer are a bend.
@@ -66,8 +69,7 @@ fn swing(scene: &Scene, fitted: &Fitted, body: usize, side: &Side) -> Result<Opt
         return Ok(None);
     }
     let law = law(side);
-    let parameters = [("cosine", "m", 3), ("rate", "rad/s", 1), ("sine", "m", 3)];
-    let effect = law_of("position", &law, &parameters);
+    let effect = free_beside(SLOW, ("position", &law), &unknowns());
     let Some(instance) = possible(scene, &effect).into_iter().find(|one| one.body == Some(body))
     else {
         return Ok(None);
@@ -81,8 +83,14 @@ fn swing(scene: &Scene, fitted: &Fitted, body: usize, side: &Side) -> Result<Opt
     if place == 0 {
         return Ok(None);
     }
-    let chance =
-        (2 * scene.bodies().len() * tried.len()) as f64 * by_chance(fitted, &coarse[place]);
+    let slow = slow(scene, fitted, body)?;
+    let beside = |gain: &Gain| Gain {
+        chi2: gain.chi2 - slow.chi2,
+        directions: gain.directions.saturating_sub(slow.directions).max(1),
+        step: gain.step[slow.step.len()..].to_vec(),
+    };
+    let swing = beside(&coarse[place]);
+    let chance = (2 * scene.bodies().len() * tried.len()) as f64 * by_chance(fitted, &swing);
     if chance >= FALSE_ALARM {
         return Ok(None);
     }
@@ -90,7 +98,24 @@ fn swing(scene: &Scene, fitted: &Fitted, body: usize, side: &Side) -> Result<Opt
         (-FINER..=FINER).map(|n| tried[place] + rate(n as f64 / FINER as f64)).collect();
     let fine = gains_at(fitted, &instance, &near)?;
     let place = best(&fine);
-    Ok(Some(described(scene, fitted, body, side, &law, near[place], &fine[place])))
+    let swing = described(scene, fitted, body, side, &law, near[place], &beside(&fine[place]));
+    // A point of the body is within it.
+    let reach_m = 0.5 * Vector3::from(scene.bodies()[body].shape.edges_m()).norm();
+    Ok(Some(swing).filter(|swing| swing.rms < reach_m))
+}
+
+/// What a force that changes slowly gains by itself.
+fn slow(scene: &Scene, fitted: &Fitted, body: usize) -> Result<Gain> {
+    let force = possible(scene, &free(Kind::Acceleration, SLOW)).into_iter();
+    let tests: Vec<(Instance, Vec<f64>)> =
+        force.filter(|one| one.body == Some(body)).map(|one| (one.clone(), one.null())).collect();
+    Ok(gains(fitted, &tests)?.remove(0))
+}
+
+fn unknowns() -> Vec<Parameter> {
+    [("cosine", "m", 3), ("rate", "rad/s", 1), ("sine", "m", 3)]
+        .map(|(name, unit, count)| (name.to_string(), unit.to_string(), count))
+        .into()
 }
 
 fn best(gains: &[Gain]) -> usize {

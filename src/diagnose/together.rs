@@ -1,5 +1,5 @@
 //! What several throws of the same objects say of their restitution and mass ratio together: the mean,
-//! weighted by the inverse variances, and whether they agree on it by χ². Where they scatter more than
+//! weighted by the inverse variances (of the mass ratio's logarithm), and whether they agree on it by χ². Where they scatter more than
 //! their own deviations say, that of the mean grows by Birge's ratio.
 
 use schemars::JsonSchema;
@@ -9,7 +9,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::pooled::Throw;
 use super::{FALSE_ALARM, reported};
 use crate::Result;
-use crate::reconstruct::{Estimate, Reconstruction};
+use crate::reconstruct::Estimate;
 use crate::words::significant;
 
 /// A quantity that all throws have, put together.
@@ -17,7 +17,7 @@ use crate::words::significant;
 pub struct Together {
     /// `restitution` or `mass_ratio`.
     pub quantity: String,
-    /// Of all throws that tell it.
+    /// Of all throws that tell it; a mass ratio in the order of the first scene's bodies.
     pub value: f64,
     /// One standard deviation, with the scatter.
     pub std: f64,
@@ -42,22 +42,29 @@ pub struct ThrowValue {
 
 /// The restitution and the mass ratio of `throws`, as far as two of them tell it.
 pub(crate) fn together(throws: &[Throw]) -> Result<Vec<Together>> {
-    type Pick = fn(&Reconstruction) -> Option<&Estimate>;
-    let quantities: [(&str, Pick); 2] = [
-        ("restitution", |result| Some(&result.restitution)),
-        ("mass_ratio", |result| result.mass_ratio.as_ref()),
-    ];
-    let results: Vec<Reconstruction> =
-        throws.iter().map(|throw| reported(throw.scene, &throw.fitted)).collect::<Result<_>>()?;
-    let of = |(quantity, pick): (&str, Pick)| {
-        let each = throws.iter().zip(&results).filter_map(|(throw, result)| {
-            let estimate = pick(result)?;
-            let (value, std) = (estimate.value?, estimate.std.filter(|std| *std > 0.0)?);
-            Some(ThrowValue { scene: throw.scene.name().to_string(), value, std })
-        });
-        mean(quantity, each.collect())
-    };
-    Ok(quantities.into_iter().filter_map(of).collect())
+    let (mut restitutions, mut mass_ratios) = (Vec::new(), Vec::new());
+    for throw in throws {
+        let result = reported(throw.scene, &throw.fitted)?;
+        restitutions.extend(known(throw, &result.restitution));
+        let ratio = result.mass_ratio.as_ref().and_then(|ratio| known(throw, ratio));
+        // In the order of the first scene's bodies.
+        let is_turned = throw.scene.bodies()[0].name != throws[0].scene.bodies()[0].name;
+        mass_ratios.extend(ratio.filter(|ratio| ratio.value > 0.0).map(|ratio| match is_turned {
+            true => ThrowValue {
+                value: ratio.value.recip(),
+                std: ratio.std * ratio.value.powi(-2),
+                ..ratio
+            },
+            false => ratio,
+        }));
+    }
+    let all = [mean("restitution", restitutions), geometric_mean("mass_ratio", mass_ratios)];
+    Ok(all.into_iter().flatten().collect())
+}
+
+fn known(throw: &Throw, estimate: &Estimate) -> Option<ThrowValue> {
+    let std = estimate.std.filter(|std| *std > 0.0)?;
+    Some(ThrowValue { scene: throw.scene.name().to_string(), value: estimate.value?, std })
 }
 
 fn mean(quantity: &str, each: Vec<ThrowValue>) -> Option<Together> {
@@ -77,7 +84,23 @@ fn mean(quantity: &str, each: Vec<ThrowValue>) -> Option<Together> {
     })
 }
 
+/// Of what is as sure as it is large: of the logarithms.
+fn geometric_mean(quantity: &str, each: Vec<ThrowValue>) -> Option<Together> {
+    let logarithm = |one: &ThrowValue| ThrowValue {
+        scene: one.scene.clone(),
+        value: one.value.ln(),
+        std: one.std / one.value,
+    };
+    let of_logarithms = mean(quantity, each.iter().map(logarithm).collect())?;
+    let value = of_logarithms.value.exp();
+    Some(Together { value, std: value * of_logarithms.std, each, ..of_logarithms })
+}
+
 impl Together {
+    /// What is to be said where the model leaves more than noise.
+    pub const OF_A_POOR_MODEL: &str =
+        "The model misses the poses by more than noise, which these errors don't count.";
+
     /// In a sentence.
     pub fn in_words(&self) -> String {
         let agree = match self.p_value < FALSE_ALARM {
@@ -114,6 +137,14 @@ mod tests {
         assert!((all.value - 0.70).abs() < 1e-12 && (all.std - 0.005).abs() < 1e-12, "{all:?}");
         assert!(all.p_value > 0.01 && all.scatter == 1.0);
         assert!(all.in_words().contains("0.7000 ± 0.0050; the throws agree"));
+    }
+
+    /// Half and twice are equally far from 1.
+    #[test]
+    fn ratios_are_averaged_by_their_logarithms() {
+        let throw = |value: f64| ThrowValue { scene: "throw".into(), value, std: 0.1 * value };
+        let all = geometric_mean("mass_ratio", vec![throw(1.0), throw(2.0)]).unwrap();
+        assert!((all.value - f64::sqrt(2.0)).abs() < 1e-12, "{all:?}");
     }
 
     #[test]

@@ -24,9 +24,9 @@ pub struct Unexplained {
     pub kind: Kind,
     /// By how much χ² falls with it; as improbable, where the noise is estimated.
     pub delta_chi2: f64,
-    /// Its root mean square over the poses; of a position about its mean.
+    /// Its root mean square over the poses; of a position over those of one flight, about the mean.
     pub rms: f64,
-    /// Its mean over the poses, in the world.
+    /// Its mean over the same poses, in the world.
     pub mean: [f64; 3],
     /// Simple laws that it looks like, the likeliest first.
     pub forms: Vec<Form>,
@@ -53,7 +53,7 @@ pub struct Form {
     pub law: String,
     /// How much of the fall of χ² this law alone brings, 0 to 1.
     pub share: f64,
-    /// Its factor `k`, or the length of its vector, in SI units.
+    /// Its factor `k`, or the length of its vector, in SI units; of a swing its rate in rad/s.
     pub factor: f64,
 }
 

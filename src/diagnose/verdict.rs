@@ -53,6 +53,7 @@ pub(super) fn diagnosis(
             let good = candidates.iter().filter(|candidate| candidate.stands_out());
             let pair = second.iter().map(|(bic, _)| *bic);
             let bic = good.map(|candidate| candidate.bic).chain(pair).fold(0.0, f64::min);
+            // By the usual criterion, whatever is left: to name nothing is the safer answer.
             let is_beaten = other_laws.iter().any(|law| law.bic < bic - TELLS_APART);
             other_laws.retain(|law| law.bic < bic + TELLS_APART);
             match is_beaten || (second.is_none() && !explains(first, &before, rest)) {
@@ -68,7 +69,8 @@ pub(super) fn diagnosis(
         (_, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
     };
     if stays_structured || verdict == Verdict::UnknownEffect {
-        unexplained.extend(swings(scene, first.map_or(fitted, |first| &first.fitted))?);
+        let told = first.filter(|_| verdict == Verdict::Missing);
+        unexplained.extend(swings(scene, told.map_or(fitted, |first| &first.fitted))?);
     }
     // What doesn't predict better never comes first.
     let mut order: Vec<usize> = (0..candidates.len()).collect();

@@ -3,6 +3,7 @@
 use super::FALSE_ALARM;
 use super::diagnosis::{CandidateReport, Diagnosis, Verdict};
 use super::rivals::OtherLaw;
+use super::together::Together;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
 use crate::words::{counted, significant};
@@ -30,7 +31,12 @@ pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
 pub(super) fn explanation_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
     let together = diagnosis.together.iter().map(|one| one.in_words());
     let sentences = std::iter::once(verdict_of_throws(diagnosis, count)).chain(together);
-    sentences.collect::<Vec<_>>().join(" ")
+    let text = sentences.collect::<Vec<_>>().join(" ");
+    let misses = diagnosis.stays_structured || diagnosis.verdict == Verdict::UnknownEffect;
+    match misses && !diagnosis.together.is_empty() {
+        true => text + " " + Together::OF_A_POOR_MODEL,
+        false => text,
+    }
 }
 
 fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
@@ -176,7 +182,7 @@ fn leftover(one: &Unexplained) -> String {
 fn swing(one: &Unexplained) -> String {
     let how = one.forms.first().map_or(String::new(), |form| {
         format!(
-            " in {}, as a point does that isn't the centre of a body that turns unseen: try {} with \
+            " in {}; it may be a point that isn't the centre of a body that turns unseen: try {} with \
              rate = {} rad/s",
             form.goes_with,
             form.law,

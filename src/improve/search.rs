@@ -38,7 +38,7 @@ pub(super) struct Found {
 struct Hypothesis {
     fitted: Fitted,
     steps: Vec<Step>,
-    /// By how much χ² falls from the base's.
+    /// By how much χ² fell on the way up.
     gain: f64,
     /// Schwarz's criterion against the base; the smaller, the better.
     bic: f64,
@@ -164,11 +164,10 @@ fn without_superfluous(
         let mut others = best.steps.clone();
         let left_out = others.remove(index);
         let mut without = base.clone();
-        let (mut gain, mut bic) = (0.0, 0.0);
+        let mut bic = 0.0;
         for step in &others {
             let with = without.with(scene, &step.instance)?;
-            let of_step = of_last(scene, &without, &with);
-            (gain, bic) = (gain + of_step.0, bic + of_step.1);
+            bic += bic_of_last(scene, &without, &with);
             without = with;
         }
         let with = without.with(scene, &left_out.instance)?;
@@ -179,18 +178,17 @@ fn without_superfluous(
             index += 1;
         } else {
             dropped.push(left_out.instance.label(scene));
-            best = Hypothesis { fitted: without, steps: others, gain, bic };
+            best = Hypothesis { fitted: without, steps: others, bic, gain: best.gain };
         }
     }
     Ok((best, dropped))
 }
 
-/// The gain and Schwarz's criterion of `with`, which has one effect more than `without`, against that.
-fn of_last(scene: &Scene, without: &Fitted, with: &Fitted) -> (f64, f64) {
-    let Some(last) = with.acting.last() else { return (0.0, 0.0) };
+/// Schwarz's criterion of `with`, which has one effect more than `without`, against that.
+fn bic_of_last(scene: &Scene, without: &Fitted, with: &Fitted) -> f64 {
+    let Some(last) = with.acting.last() else { return 0.0 };
     let scanned = points(scene, &last.instance).len().max(1);
     let poses = last.instance.is_of_a_pose().then_some(scanned);
     // How many were tried has no part in it. What the data don't depend on costs nothing.
-    evidence(without, with, scanned, 1)
-        .map_or((0.0, 0.0), |evidence| (evidence.delta_chi2, evidence.bic(with.numbers(), poses)))
+    evidence(without, with, scanned, 1).map_or(0.0, |evidence| evidence.bic(with.numbers(), poses))
 }

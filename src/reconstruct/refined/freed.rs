@@ -111,7 +111,7 @@ fn same_jump(
     wanted: &[Leaving],
 ) -> Option<RefinedUnknowns> {
     let layout = Layout::new(refined);
-    let impulse = layout.impulse..layout.contact.unwrap_or(layout.impulse);
+    let impulse = layout.impulse..layout.impulse + layout.impulse_size();
     let contact = layout.contact.map_or(0..0, |first| first..first + 2);
     let own = layout.parameters[acting.first..acting.first + acting.count].iter().flatten();
     let moved: Vec<usize> = impulse.chain(contact).chain(own.copied()).collect();

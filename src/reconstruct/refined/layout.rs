@@ -46,6 +46,11 @@ impl Layout {
         Layout { bodies, time, tilt, impulse, normal, contact, log_mass, parameters, size }
     }
 
+    /// How many numbers the impulse has.
+    pub(super) fn impulse_size(&self) -> usize {
+        if self.normal.is_some() { 1 } else { 3 }
+    }
+
     /// The unknowns after a step of `length` along coordinate `index`.
     pub(super) fn stepped(
         &self,

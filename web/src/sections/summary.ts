@@ -148,15 +148,20 @@ function flags(report: Report, model: Model): HTMLElement[] {
 }
 
 /** Beyond what can be, and no failed fit: its interval holds what can. */
+/** A 95 % interval of a restitution that is wider says little. */
+const VAGUE = 0.2;
+
 function unsureRestitution({ result }: Model): Doubt[] {
-  const { value } = result.restitution;
+  const { value, interval_95: interval } = result.restitution;
   const isPossible = typeof value !== 'number' || (value >= 0 && value <= 1);
   if (isPossible || result.flags.includes('restitution_out_of_range')) return [];
+  const isVague = Array.isArray(interval) && Math.abs(Number(interval[1]) - Number(interval[0])) > VAGUE;
   return [
     {
-      meaning:
-        'the restitution is not between 0 and 1, but its 95 % interval reaches there: the poses hardly tell it',
-      advice: 'annotate more poses near the collision, and longer flights',
+      meaning: isVague
+        ? 'the restitution is not between 0 and 1, but its 95 % interval reaches there: the poses hardly tell it'
+        : 'the restitution is just beyond what can be, but by no more than its error',
+      advice: isVague ? 'annotate more poses near the collision, and longer flights' : '',
     },
   ];
 }
