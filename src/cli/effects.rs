@@ -136,7 +136,7 @@ fn passed(effect: &Effect, file: &str) -> String {
          smash reconstruct SCENE --with {}\n",
         effect.name,
         hooks.join(", "),
-        shell_word(file),
+        if file == "-" { file.into() } else { shell_word(file) },
     )
 }
 

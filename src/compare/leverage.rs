@@ -76,7 +76,9 @@ impl Leverage {
         let is_free = is_free(scene, result);
         let bodies = scene.bodies().iter().zip(slopes).map(|(body, slopes)| {
             let root = root(covariance(table, &steps, &body.name, is_free));
-            slopes.map(|slopes| slopes * &root)
+            // What is known to no finite deviation takes nothing that could be told.
+            let known = |number: f64| if number.is_finite() { number } else { 0.0 };
+            slopes.map(|slopes| (slopes * &root).map(known))
         });
         Ok(Some(Leverage { bodies: bodies.collect() }))
     }

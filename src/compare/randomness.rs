@@ -29,6 +29,8 @@ const ENOUGH_EXCEEDANCES: usize = 20;
 /// Series simulated at once, as the columns of one product; the first few often are enough.
 const FIRST_SERIES: usize = 32;
 const SERIES_AT_ONCE: usize = 256;
+/// Of a decomposition into singular values, which takes some for each of a few dozen.
+const MOST_SWEEPS: usize = 10_000;
 /// What the fit takes less of than this of a direction's variance is rounding.
 const LEAST_TAKEN: f64 = 1e-14;
 /// Below, p-values tell no more which test is clearer.
@@ -245,7 +247,12 @@ impl Null {
         if series.taken.ncols() == 0 {
             return Null { u: DMatrix::zeros(count, 0), taken: DVector::zeros(0), count };
         }
-        let svd = series.taken.clone().svd(true, false);
+        let taken = Some(series.taken.clone()).filter(|taken| taken.iter().all(|x| x.is_finite()));
+        let svd = taken.and_then(|a| a.try_svd(true, false, 5.0 * f64::EPSILON, MOST_SWEEPS));
+        // Where it has no end, the tests hold for residuals of no fit.
+        let Some(svd) = svd else {
+            return Null { u: DMatrix::zeros(count, 0), taken: DVector::zeros(0), count };
+        };
         let u = svd.u.unwrap_or_else(|| DMatrix::zeros(count, 0));
         let taken = svd.singular_values.map(|s| (s * s).min(1.0));
         Null { u, taken, count }
@@ -357,4 +364,22 @@ fn autocorrelation(values: &[f64]) -> f64 {
     let neighbours: f64 = values.windows(2).map(|pair| pair[0] * pair[1]).sum();
     let squares: f64 = values.iter().map(|value| value * value).sum();
     if squares > 0.0 { neighbours / squares } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A decomposition of what is no number goes on for ever if it is let.
+    #[test]
+    fn leverages_that_are_no_numbers_have_an_end() {
+        let series = Series {
+            since_s: vec![0.1, 0.2, 0.3],
+            values: DVector::from_vec(vec![1.0, -1.0, 0.5]),
+            taken: DMatrix::from_element(3, 2, f64::NAN),
+            dof: f64::INFINITY,
+        };
+        let null = Null::new(&series);
+        assert_eq!((null.u.ncols(), null.variance_of(0)), (0, 1.0));
+    }
 }

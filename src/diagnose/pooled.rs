@@ -162,13 +162,7 @@ fn candidate(
     let disagree = agreement.is_some_and(|p| p < FALSE_ALARM);
     // What chance lets scatter counts in full.
     let delta = ((gain - q) / if disagree { scatter2 } else { 1.0 }).max(0.0);
-    // Each throw by what the others say of it, against the null.
-    let foretold: f64 = (0..known.len())
-        .filter_map(|index| {
-            let others = self::mean(&known, Some(index))?;
-            Some(square(known[index], &null) - square(known[index], &others))
-        })
-        .sum();
+    let foretold: f64 = (0..known.len()).filter_map(|index| foretold(&known, index, &null)).sum();
     let count = parameters as f64;
     let wald = {
         let off = &mean - &null;
@@ -278,6 +272,23 @@ fn mean(known: &[&Own], left_out: Option<usize>) -> Option<DVector<f64>> {
     let tolerance = 1e-12 * total.norm();
     (tolerance > 0.0)
         .then(|| total.pseudo_inverse(tolerance).ok().map(|inverse| inverse * weighted))?
+}
+
+/// By how much better the estimate of throw `index` is met by what the others say than by the `null`, in
+/// units of how surely either throws or others know: as the parallel sum A (A + B)⁻¹ B of their
+/// informations.
+fn foretold(known: &[&Own], index: usize, null: &DVector<f64>) -> Option<f64> {
+    let own = known[index];
+    let mean = mean(known, Some(index))?;
+    let others = information(known, Some(index));
+    let both = &own.information + &others;
+    let tolerance = 1e-12 * both.norm();
+    let weight = &own.information * both.pseudo_inverse(tolerance).ok()? * others;
+    let square = |at: &DVector<f64>| {
+        let off = &own.values - at;
+        off.dot(&(&weight * &off))
+    };
+    Some(square(null) - square(&mean))
 }
 
 fn rank(information: &DMatrix<f64>) -> usize {

@@ -34,6 +34,12 @@ pub struct OtherLaw {
 }
 
 impl OtherLaw {
+    /// Whether a user's candidate is it, to the letter.
+    pub(super) fn is_the_law_of(&self, tried: &Instance) -> bool {
+        let mut laws = tried.effect.sources.iter();
+        laws.any(|(hook, law)| format!("{hook} = \"{law}\"") == self.law)
+    }
+
     /// Whether `candidate` is a special case of it, and does as well: then it takes no part of its
     /// probability, though it may be told.
     pub(super) fn is_needless_beside(&self, candidate: &Candidate, scene: &Scene) -> bool {

@@ -43,6 +43,7 @@ pub(super) fn diagnosis(
         Some(_) => rivals(scene, fitted, instances.len())?,
         None => Vec::new(),
     };
+    other_laws.retain(|law| !instances.iter().any(|tried| law.is_the_law_of(tried)));
     let weighed: Vec<&OtherLaw> = other_laws
         .iter()
         .filter(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)))
