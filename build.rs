@@ -39,6 +39,10 @@ fn main() {
         .std("c++17")
         // Unoptimised templates on the scalar run fifty times slower, in every profile.
         .opt_level(3)
+        // Derivatives are short loops in deep templates: left as calls they take twice as long.
+        .flag_if_supported("-finline-limit=5000")
+        .flag_if_supported("--param=large-function-growth=1000")
+        .flag_if_supported("--param=inline-unit-growth=400")
         // Eigen checks every assignment of every jet else; what is given is checked before.
         .define("NDEBUG", None)
         .flag_if_supported("-Wall")

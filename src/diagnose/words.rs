@@ -63,18 +63,23 @@ fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
             "Many of the {count} throws are missed by more than their noise, and no effect that they \
              could share explains it alone.{} A body that rolls, slides or lies on another is in no flight: \
              leave such poses out.",
-            diagnosis.candidates.first().map_or(String::new(), nearest_of_throws)
+            nearest_of_throws(diagnosis)
         ),
         _ => format!(
             "{count} throws together show nothing that is missing.{} An effect weaker than the noise \
              can still be there.",
-            diagnosis.candidates.first().map_or(String::new(), nearest_of_throws)
+            nearest_of_throws(diagnosis)
         ),
     }
 }
 
-/// A candidate that helps, but isn't named: it leaves too much, or the throws scatter too much about it.
-fn nearest_of_throws(best: &CandidateReport) -> String {
+/// A candidate that is more probable than none, but isn't named: it leaves too much, or the throws
+/// scatter too much about it.
+fn nearest_of_throws(diagnosis: &Diagnosis) -> String {
+    let best = diagnosis.candidates.first();
+    let Some(best) = best.filter(|best| best.probability > diagnosis.probability_of_nothing) else {
+        return String::new();
+    };
     let agreement = best.throws.as_ref();
     let scatters = agreement.filter(|a| a.p_value.is_some_and(|p| p < FALSE_ALARM));
     let but = match scatters {

@@ -1,6 +1,7 @@
 //! The port of a session: the same each time, so that a browser finds again what it keeps for the page.
 
-/// Beyond those that systems give away by themselves.
+/// Beyond those that Linux gives away by itself; elsewhere another program may have one, and then any that
+/// is free is taken.
 const FIRST: u16 = 61_000;
 
 /// The port for the session with this number, in hexadecimal digits.
