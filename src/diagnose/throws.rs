@@ -16,6 +16,7 @@ use super::words::{explanation_of_throws, listed};
 use super::{Goodness, all_candidates, held_out_rmse_m, reported};
 use crate::compare::{ChannelTest, channels};
 use crate::effect::EffectRequest;
+use crate::reconstruct::active_effect::{GIVEN, NO_DATA};
 use crate::reconstruct::refined::{self, Instance};
 use crate::reconstruct::{Number, ParameterEstimate, RefinedOptions};
 use crate::words::quoted;
@@ -303,7 +304,7 @@ fn parameters(
                 value: Some(Number::from(known.clone())),
                 std: None,
                 unit,
-                reason: Some("it was given".to_string()),
+                reason: Some(GIVEN.to_string()),
             },
             None => {
                 let range = place..place + parameter.null.len();
@@ -311,7 +312,7 @@ fn parameters(
                 let std: Option<Vec<f64>> = stds[range.clone()].iter().copied().collect();
                 ParameterEstimate {
                     value: Some(Number::from(values[range].to_vec())),
-                    reason: std.is_none().then(|| "the poses don't determine it".to_string()),
+                    reason: std.is_none().then(|| NO_DATA.to_string()),
                     std: std.map(Number::from),
                     unit,
                 }

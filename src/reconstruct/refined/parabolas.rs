@@ -38,8 +38,8 @@ pub(super) struct Parabolas {
     splits: Vec<Vec<usize>>,
 }
 
-/// Sums over a body's first poses, each weighted by 1 over its noise scale squared; entry n is of the first n. Times count from the origin, y is
-/// p − ½ g t² from the first pose's.
+/// Sums over a body's first poses, each weighted by 1 over its noise scale squared; entry n is of the
+/// first n. Times count from the origin, y is p − ½ g t² from the first pose's.
 struct Sums {
     times_s: Vec<f64>,
     offset: Vector3<f64>,

@@ -11,6 +11,7 @@ use super::robust::{is_outlier, outliers};
 use super::significance::push;
 use super::uncertainty::Deviations;
 use crate::bridge::refined::ffi::RefinedScene;
+use crate::reconstruct::active_effect::NO_DATA;
 use crate::reconstruct::collision::{NO_IMPULSE, body_result};
 use crate::reconstruct::flags::{Doubts, flags};
 use crate::reconstruct::result::{
@@ -21,7 +22,6 @@ use crate::reconstruct::{Intervals, Loss, Options, RefinedOptions, SegmentCriter
 use crate::{Result, Scene};
 
 const NO_ORIENTATION: &str = "no orientation was fitted";
-const NO_DATA: &str = "the poses don't determine it";
 const ONLY_A_BOUND: &str =
     "a body's jump in velocity doesn't stand out of the noise: the mass ratio is at best a bound";
 const NO_INTERVAL: &str = "no end of the interval was found: the likelihood falls too slowly";
