@@ -148,6 +148,18 @@ impl Scene {
         (!moved.gaps().is_empty()).then_some(moved)
     }
 
+    /// The scene without the poses of one body, or of all, at `time_s`; `None` where the others leave no
+    /// gap for the collision.
+    pub(crate) fn without_pose(&self, body: Option<usize>, time_s: f64) -> Option<Scene> {
+        let mut rest = self.clone();
+        for (index, other) in rest.bodies.iter_mut().enumerate() {
+            if body.is_none_or(|body| body == index) {
+                other.observations.retain(|seen| seen.time_s != time_s);
+            }
+        }
+        (!rest.gaps().is_empty()).then_some(rest)
+    }
+
     /// The scene as if each body were annotated at these times in s, all in one place: for what only
     /// asks when.
     pub(crate) fn sampled_at(&self, times_s: Vec<Vec<f64>>) -> Scene {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::time::Instant;
 
 use super::acting::{Acting, Instance};
+use super::approach::approached;
 use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
 use super::noise::{KnownNoise, LEAST_NOISE, MOST_NOISE_ROUNDS, positions, settle_noise, turns};
@@ -86,7 +87,10 @@ impl Fitted {
         let starts = starts(self, scene, &refined, &acting)?;
         let optima = match instance.is_held_at_null() {
             true => vec![nested_optimum(&refined, &starts[0].0, self.best())?],
-            false => self.optima_with(instance, &refined, &starts)?,
+            false => match self.optima_with(instance, &refined, &starts) {
+                Err(_) if !instance.fixed.is_empty() => approached(&refined, &acting, &starts[0])?,
+                optima => optima?,
+            },
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
         fitted.acting.push(acting);

@@ -9,6 +9,7 @@
 
 pub(crate) mod acting;
 mod alternatives;
+mod approach;
 mod covariance;
 mod fitted;
 mod flown;
@@ -26,6 +27,7 @@ mod report;
 mod robust;
 mod significance;
 mod solve;
+mod solved_anew;
 #[cfg(test)]
 mod solver_tests;
 mod spins;

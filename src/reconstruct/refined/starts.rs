@@ -7,13 +7,11 @@ use super::acting::{Acting, Instance};
 use super::fitted::Fitted;
 use super::freed::freed;
 use super::gain::{gains, gains_without, linearised};
-use super::model::{has_plane, refined_scene};
-use super::optimum::Optimum;
-use super::parabolas::Parabolas;
-use super::solve::solve;
+use super::model::has_plane;
+use super::optimum::{Optimum, optima_from};
+use super::solved_anew::{delayed, without_a_pose};
 use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
 use crate::effect::{Scan, Scope};
-use crate::reconstruct::Loss;
 use crate::scene::{Gap, StaticPlane};
 use crate::{Result, Scene};
 
@@ -24,7 +22,9 @@ const HOPELESS: f64 = 40.0;
 /// Costs that differ by less, of their size, are of one optimum.
 const SAME: f64 = 1e-5;
 /// Points of a scan that are tried.
-const MOST_POINTS: usize = 3;
+pub(super) const MOST_POINTS: usize = 3;
+/// Points of a scan that are held for a while, and then the best of them tried.
+const MOST_HELD: usize = 8;
 /// Gaps that a scan looks into.
 const MOST_GAPS: usize = 16;
 /// Delays of a time scan, in frames.
@@ -62,19 +62,38 @@ pub(super) fn starts(
             }
         }
         Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)?),
-        Some((_, place)) => {
+        Some((scan, place)) => {
             let mut scanned = scanned(nested, scene, &acting.instance)?;
             scanned.sort_by(|a, b| b.gain.total_cmp(&a.gain));
             let (unknowns, gap) = starts[0].clone();
             starts.truncate(1);
-            starts.extend(scanned.iter().take(MOST_POINTS).map(|scanned| {
+            let at = |scanned: &Scanned| {
                 let mut start = unknowns.clone();
                 start.parameters[acting.first + place] = scanned.point;
                 (start, gap)
-            }));
+            };
+            if scan == Scan::ObservationTimes {
+                starts.extend(scanned.iter().take(MOST_POINTS).map(at));
+                starts.extend(without_a_pose(nested, scene, acting, place));
+            } else {
+                let likely: Vec<Start> = scanned.iter().take(MOST_HELD).map(at).collect();
+                starts.extend(held(refined, acting.first + place, &likely));
+            }
         }
     }
     Ok(starts)
+}
+
+/// The optima with parameter `index` held where each of `likely` has it, the best first: free from the
+/// beginning, a moment runs off to another gap before the event there has grown.
+fn held(refined: &RefinedScene, index: usize, likely: &[Start]) -> Vec<Start> {
+    let mut still = refined.clone();
+    still.parameters[index].held = true;
+    let optima = likely.iter().filter_map(|start| optima_from(&still, &[start.clone()]).ok());
+    let mut optima: Vec<Optimum> = optima.filter_map(|optima| optima.into_iter().next()).collect();
+    optima.sort_by(|a, b| a.solution.cost.total_cmp(&b.solution.cost));
+    let best = optima.into_iter().take(MOST_POINTS);
+    best.map(|optimum| (optimum.solution.unknowns, optimum.gap)).collect()
 }
 
 /// Whether a fit may be bent so far that it is stuck: on a plane, where a body that rubs turns; between
@@ -224,33 +243,4 @@ pub(super) fn away(
         }
     }
     away
-}
-
-/// The base model solved anew with a body's stamps moved: the delay may be more than a segment. Which
-/// delays are worth it the parabolas tell.
-fn delayed(nested: &Fitted, scene: &Scene, acting: &Acting, place: usize) -> Result<Vec<Start>> {
-    let known = &nested.best().solution.unknowns.parameters;
-    let mut moved: Vec<(f64, f64, Scene)> = points(scene, &acting.instance)
-        .into_iter()
-        .filter_map(|delay_s| {
-            let moved = scene.delayed(acting.instance.body, -delay_s)?;
-            let squares_m2 = Parabolas::new(&moved).best_segments(1).first()?.squares_m2;
-            Some((squares_m2, delay_s, moved))
-        })
-        .collect();
-    moved.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut starts = Vec::new();
-    for (_, delay_s, moved) in moved.into_iter().take(MOST_POINTS) {
-        let parabolas = Parabolas::new(&moved);
-        let mut refined = refined_scene(&moved, nested.noise.value, nested.refined.tilt_std_rad);
-        let Ok(solved) = solve(&mut refined, &parabolas, Some(nested.noise.value), Loss::Squares)
-        else {
-            continue;
-        };
-        let mut unknowns = solved.optima[0].solution.unknowns.clone();
-        unknowns.parameters = [known.as_slice(), &acting.instance.null()].concat();
-        unknowns.parameters[acting.first + place] = delay_s;
-        starts.push((unknowns, solved.optima[0].gap));
-    }
-    Ok(starts)
 }

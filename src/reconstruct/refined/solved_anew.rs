@@ -1,0 +1,105 @@
+//! Starts from the base model solved anew, of the scene as an effect would have it: where the optimum
+//! without the effect is of no use, since a spin or the segment is wrong because of it.
+
+use super::acting::Acting;
+use super::fitted::Fitted;
+use super::model::refined_scene;
+use super::parabolas::Parabolas;
+use super::solve::solve;
+use super::starts::{MOST_POINTS, Start, points};
+use crate::reconstruct::Loss;
+use crate::scene::Gap;
+use crate::{Result, Scene};
+
+/// Of more poses a single one misleads nobody.
+const FEW_POSES: usize = 32;
+
+/// With a body's stamps moved: the delay may be more than a segment. Which delays are worth it the
+/// parabolas tell.
+pub(super) fn delayed(
+    nested: &Fitted,
+    scene: &Scene,
+    acting: &Acting,
+    place: usize,
+) -> Result<Vec<Start>> {
+    let mut moved: Vec<(f64, f64, Scene)> = points(scene, &acting.instance)
+        .into_iter()
+        .filter_map(|delay_s| {
+            let moved = scene.delayed(acting.instance.body, -delay_s)?;
+            let squares_m2 = Parabolas::new(&moved).best_segments(1).first()?.squares_m2;
+            Some((squares_m2, delay_s, moved))
+        })
+        .collect();
+    moved.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let moved = moved.into_iter().take(MOST_POINTS);
+    Ok(moved
+        .filter_map(|(_, delay_s, moved)| {
+            Some(solved_anew(nested, &moved, acting, (place, delay_s))?.start)
+        })
+        .collect())
+}
+
+/// Without each pose in turn, the best first; nothing where the poses aren't few, or the model isn't far
+/// off all of them.
+pub(super) fn without_a_pose(
+    nested: &Fitted,
+    scene: &Scene,
+    acting: &Acting,
+    place: usize,
+) -> Vec<Start> {
+    let times_s = points(scene, &acting.instance);
+    if times_s.len() > FEW_POSES || !is_lost(nested) {
+        return Vec::new();
+    }
+    let mut solved: Vec<SolvedAnew> = times_s
+        .into_iter()
+        .filter_map(|time_s| {
+            let rest = scene.without_pose(acting.instance.body, time_s)?;
+            let mut solved = solved_anew(nested, &rest, acting, (place, time_s))?;
+            // The gap that the pose was in, or ends.
+            let collision_time_s = solved.start.0.collision_time_s;
+            let holds = |gap: &Gap| (gap.start_s..=gap.end_s).contains(&collision_time_s);
+            solved.start.1 = scene.gaps().into_iter().find(holds)?;
+            Some(solved)
+        })
+        .collect();
+    solved.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    solved.into_iter().take(MOST_POINTS).map(|solved| solved.start).collect()
+}
+
+/// Whether a fit has lost its way: what is missing alone hardly leaves so much.
+fn is_lost(nested: &Fitted) -> bool {
+    /// Of what noise leaves.
+    const FAR: f64 = 10.0;
+    /// More than an annotator is ever off.
+    const LARGE_RAD: f64 = 0.2;
+    match nested.has_stated_noise() {
+        true => nested.chi2() > FAR * nested.numbers(),
+        false => nested.noise.value.orientation > LARGE_RAD,
+    }
+}
+
+struct SolvedAnew {
+    cost: f64,
+    start: Start,
+}
+
+/// The base model of `scene`, as a start for `nested` with `acting` added, whose scalar at `place` has
+/// this value.
+fn solved_anew(
+    nested: &Fitted,
+    scene: &Scene,
+    acting: &Acting,
+    (place, value): (usize, f64),
+) -> Option<SolvedAnew> {
+    let noise = nested.noise.value;
+    let parabolas = Parabolas::new(scene);
+    let mut refined = refined_scene(scene, noise, nested.refined.tilt_std_rad);
+    let solved = solve(&mut refined, &parabolas, Some(noise), Loss::Squares).ok()?;
+    let best = &solved.optima[0];
+    let mut unknowns = best.solution.unknowns.clone();
+    let known = &nested.best().solution.unknowns.parameters;
+    unknowns.parameters = [known.as_slice(), &acting.instance.null()].concat();
+    unknowns.parameters[acting.first + place] = value;
+    Some(SolvedAnew { cost: best.solution.cost, start: (unknowns, best.gap) })
+}
