@@ -3,16 +3,12 @@
 use super::diagnosis::{Diagnosis, Verdict};
 use crate::Scene;
 use crate::effect::{Effect, catalogue};
-use crate::reconstruct::refined::Fitted;
+use crate::reconstruct::refined::{Acting, Fitted};
 
 /// The advice that goes with a diagnosis; in its commands SCENE is the scene's file.
 pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> Vec<String> {
     let mut advice = Vec::new();
-    let known: String = fitted
-        .acting
-        .iter()
-        .map(|acting| format!(" --with {}", acting.instance.label(scene)))
-        .collect();
+    let known = known_effects(scene, fitted);
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::Missing, Some(best)) => {
             let alike: Vec<&str> = best
@@ -61,6 +57,12 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
     }
     advice.retain(|line| !line.is_empty());
     advice
+}
+
+/// What a command takes for the effects that the model has.
+pub(super) fn known_effects(scene: &Scene, fitted: &Fitted) -> String {
+    let label = |acting: &Acting| format!(" --with {}", acting.instance.label(scene));
+    fitted.acting.iter().map(label).collect()
 }
 
 fn find(name: &str) -> Option<&'static Effect> {

@@ -104,6 +104,13 @@ pub(super) fn promising(
     Ok(kept.map(|(_, index)| instances[*index].clone()).collect())
 }
 
+/// What the criterion of a body's effect is worse by than that of the scene's: next to nothing, so that
+/// of two that are the same by construction, as a lone body's scale of depth and that of gravity, the
+/// more general comes first.
+pub(super) fn of_a_body(instance: &Instance) -> f64 {
+    if instance.body.is_some() { 0.1 } else { 0.0 }
+}
+
 /// What speaks for `with`, which has one effect more than `without`; `None` where the data don't
 /// depend on the effect. `tried`: how many candidates there are.
 pub(super) fn candidate(
@@ -116,7 +123,8 @@ pub(super) fn candidate(
     let instance = &with.acting.last()?.instance;
     let scanned = points(scene, instance).len().max(1);
     let evidence = evidence(without, &with, scanned, tried)?;
-    let bic = evidence.bic(with.numbers(), instance.is_of_a_pose().then_some(scanned));
+    let bic = evidence.bic(with.numbers(), instance.is_of_a_pose().then_some(scanned))
+        + of_a_body(instance);
     let held_out = before.cloned().zip(HeldOut::of(&with, without.collision_time_s()));
     // What happens at one moment can't be told from the other poses.
     let predicts = instance.is_of_a_moment()

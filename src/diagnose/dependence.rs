@@ -72,7 +72,7 @@ fn flights(fitted: &Fitted) -> Vec<Range<usize>> {
 
 /// 1 + 2 Σ ρ, summed as long as pairs of neighbouring correlations, from the first lag on, stay positive
 /// (after Geyer, *Practical Markov Chain Monte Carlo*, 1992, who pairs from lag 0).
-fn correlation_length(series: &[f64]) -> f64 {
+pub(super) fn correlation_length(series: &[f64]) -> f64 {
     let at = |lag: usize| -> f64 { series.iter().zip(&series[lag..]).map(|(a, b)| a * b).sum() };
     let own = at(0);
     let pairs = (1..series.len() / 2).step_by(2).map(|lag| (at(lag) + at(lag + 1)) / own);

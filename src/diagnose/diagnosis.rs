@@ -111,6 +111,8 @@ pub struct Agreement {
     /// How many times more they scatter than their own errors say, 1 and more; the deviations of the
     /// parameters are larger by as much (Birge's ratio).
     pub scatter: f64,
+    /// Whether all throws are taken to have the same parameters; else each has its own.
+    pub is_shared: bool,
     /// Each throw's own estimate.
     pub each: Vec<ThrowEstimate>,
 }

@@ -7,6 +7,7 @@
 //! ```
 
 mod advice;
+mod best_of_throws;
 mod candidates;
 mod dependence;
 mod diagnosis;
@@ -15,11 +16,14 @@ mod forms;
 mod goodness;
 mod held_out;
 mod leftover;
+mod misses;
+mod own;
 mod pooled;
 mod ranking;
 mod rivals;
 mod swing;
 mod throws;
+mod throws_told;
 mod together;
 mod unexplained;
 mod verdict;
@@ -33,6 +37,7 @@ pub use throws::diagnose_throws;
 pub use together::{ThrowValue, Together};
 pub use unexplained::{Form, Kind, Unexplained};
 
+pub(crate) use best_of_throws::{alike, put_best_first, with_own};
 pub(crate) use candidates::{Candidate, all_candidates};
 pub(crate) use dependence::{inflation_of, quasi_bic};
 pub(crate) use evidence::{critical_chi2, evidence};
@@ -42,7 +47,7 @@ pub(crate) use leftover::Leftover;
 pub(crate) use pooled::{Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
 pub(crate) use rivals::rivals;
-pub(crate) use throws::{alike, instances, looks, put_best_first, reduced_chi2, throws, with_own};
+pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 pub(crate) use together::together;
 
 use rayon::prelude::*;

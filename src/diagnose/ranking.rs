@@ -2,6 +2,7 @@
 
 use super::dependence::{inflation_of, quasi_bic};
 use super::leftover::Leftover;
+use super::misses::{Misses, most_counted};
 use super::{Candidate, OtherLaw};
 use crate::{Result, Scene};
 
@@ -9,20 +10,44 @@ use crate::{Result, Scene};
 /// Raftery, *Bayes Factors*, 1995): the best of some twenty is there by luck, too.
 pub(crate) const TELLS_APART: f64 = 10.0;
 
-/// The probability of each candidate, and that of none, by Schwarz's criterion and equal odds
-/// beforehand, also of `other_laws`; its differences count for less by `inflation`.
+/// The probability of each candidate, of which `first` is the best, and that of none, by Schwarz's
+/// criterion and equal odds beforehand, also of `other_laws`; its differences count for less by
+/// `inflation`.
 pub(super) fn probabilities(
     candidates: &[Candidate],
+    first: Option<&Candidate>,
     other_laws: &[&OtherLaw],
     inflation: f64,
 ) -> (Vec<f64>, f64) {
     let of_laws = other_laws.iter().map(|law| quasi_bic(law.bic, law.delta_chi2, inflation));
-    let all = candidates.iter().map(|one| quasi(one, inflation)).chain(of_laws);
+    let against_none = |one: &Candidate| match first {
+        // The first stays it, also where another with fewer parameters is as good.
+        Some(first) => quasi(first, inflation) + behind(one, first, inflation).max(0.0),
+        None => quasi(one, inflation),
+    };
+    let own: Vec<f64> = candidates.iter().map(against_none).collect();
+    let all = own.iter().copied().chain(of_laws);
     let least = all.clone().fold(0.0, f64::min);
     let weight = |bic: f64| (-0.5 * (bic - least)).exp();
     let none = weight(0.0);
     let total: f64 = none + all.map(weight).sum::<f64>();
-    (candidates.iter().map(|c| weight(quasi(c, inflation)) / total).collect(), none / total)
+    (own.iter().map(|bic| weight(*bic) / total).collect(), none / total)
+}
+
+/// By how much Schwarz's criterion of `one` is worse than that of `other`, where differences count for
+/// less by `inflation`: there something is left that none explains, and they count for no more than they
+/// are sure to.
+fn behind(one: &Candidate, other: &Candidate, inflation: f64) -> f64 {
+    let by_parameters =
+        (one.bic + one.evidence.delta_chi2) - (other.bic + other.evidence.delta_chi2);
+    let missed = other.evidence.delta_chi2 - one.evidence.delta_chi2;
+    // Single poses are all that is to be said of what happens at one moment.
+    let is_of_poses = ![one, other].iter().any(|candidate| candidate.instance().is_of_a_moment());
+    let most = match inflation > 1.0 && is_of_poses {
+        true => most_counted(&[&Misses::of(&other.fitted)], &[&Misses::of(&one.fitted)]),
+        false => f64::INFINITY,
+    };
+    by_parameters + (missed / inflation).clamp(-most, most)
 }
 
 /// Schwarz's criterion, where differences count for less by `inflation`.
@@ -59,7 +84,7 @@ pub(crate) fn look_alikes(candidates: &[Candidate], index: usize, inflation: f64
     let is_alike = |other: &usize| {
         *other != index
             && candidates[*other].stands_out() == own.stands_out()
-            && (quasi(&candidates[*other], inflation) - quasi(own, inflation)).abs() < TELLS_APART
+            && behind(&candidates[*other], own, inflation).abs() < TELLS_APART
     };
     (0..candidates.len()).filter(is_alike).collect()
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::evidence::evidence;
 use super::forms::{LawForm, forms};
 use super::{Candidate, FALSE_ALARM};
+use crate::effect::Scan;
 use crate::reconstruct::refined::{Fitted, Instance, gains, possible};
 use crate::{Result, Scene};
 
@@ -57,6 +58,30 @@ impl OtherLaw {
         let is_same_body = scene.bodies().len() == 1 || body == self.body.as_ref();
         is_same_body && is_held(&instance.effect.name) && candidate.bic <= self.bic
     }
+}
+
+/// A push that lasts, where `candidate` is an impact at a time of its own and no pose tells whether it
+/// was as short as one.
+pub(super) fn lasting_push(candidate: &Candidate, scene: &Scene) -> Option<OtherLaw> {
+    /// Two bodies hardly touch for longer, s.
+    const SHORT_S: f64 = 0.05;
+    let acting = candidate.fitted.acting.last()?;
+    let (Scan::GapTimes, place) = acting.instance.scan()? else { return None };
+    let body = &scene.bodies()[acting.instance.body?];
+    let unknowns = &candidate.fitted.best().solution.unknowns;
+    let time_s = unknowns.parameters[acting.first + place];
+    let after = body.observations.partition_point(|seen| seen.time_s < time_s);
+    let [from_s, to_s] =
+        [after.checked_sub(1)?, after].map(|index| body.observations.get(index).map(|o| o.time_s));
+    let (from_s, to_s) = (from_s?, to_s?);
+    (to_s - from_s > SHORT_S).then(|| OtherLaw {
+        body: Some(body.name.clone()),
+        goes_with: format!("time: a push that lasts, at most from {from_s:.3} s to {to_s:.3} s"),
+        law: "acceleration = \"step(t - from) * step(to - t) * a\"".to_string(),
+        delta_chi2: candidate.evidence.delta_chi2,
+        parameters_added: candidate.evidence.parameters,
+        bic: candidate.bic,
+    })
 }
 
 /// The laws that explain `scene` significantly better than its model, the best first. `tried`: how

@@ -4,7 +4,7 @@ use super::advice::advice;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 use super::leftover::Leftover;
 use super::ranking::{TELLS_APART, first, look_alikes, probabilities, rank};
-use super::rivals::{OtherLaw, rivals};
+use super::rivals::{OtherLaw, lasting_push, rivals};
 use super::swing::swings;
 use super::unexplained::unexplained;
 use super::words::explanation;
@@ -48,7 +48,7 @@ pub(super) fn diagnosis(
         .iter()
         .filter(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)))
         .collect();
-    let (odds, none) = probabilities(&candidates, &weighed, inflation);
+    let (odds, none) = probabilities(&candidates, first, &weighed, inflation);
     let verdict = match (first, &rest) {
         (Some(first), Some(rest)) => {
             let good = candidates.iter().filter(|candidate| candidate.stands_out());
@@ -65,6 +65,10 @@ pub(super) fn diagnosis(
         _ if before.is_structured => Verdict::UnknownEffect,
         _ => Verdict::NothingMissing,
     };
+    // It is the same but for how long it lasts: it takes no part in what decides.
+    let lasting =
+        first.filter(|_| verdict == Verdict::Missing).and_then(|f| lasting_push(f, scene));
+    other_laws.extend(lasting);
     let mut unexplained = match (verdict, rest) {
         (Verdict::UnknownEffect, _) => unexplained(scene, fitted)?,
         (_, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
@@ -75,6 +79,7 @@ pub(super) fn diagnosis(
     }
     // What doesn't predict better never comes first.
     let mut order: Vec<usize> = (0..candidates.len()).collect();
+    order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]));
     order.sort_by_key(|&index| !candidates[index].stands_out());
     let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
     let reports = order

@@ -1,11 +1,12 @@
 //! The answer in plain words.
 
 use super::FALSE_ALARM;
-use super::diagnosis::{CandidateReport, Diagnosis, Verdict};
+use super::diagnosis::{Agreement, CandidateReport, Diagnosis, Verdict};
 use super::rivals::OtherLaw;
 use super::together::Together;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
+use crate::reconstruct::Number;
 use crate::words::{counted, significant};
 
 /// What `diagnosis` says. `pair`: two effects that explain together what one doesn't.
@@ -46,17 +47,7 @@ fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
                 "In {count} throws together: {}",
                 missing(best, None, diagnosis.stays_structured)
             );
-            let agreement = best.throws.as_ref();
-            if let Some((p, scatter)) = agreement.and_then(|a| Some((a.p_value?, a.scatter))) {
-                text += &match p < 0.01 {
-                    false => " The throws agree on it.".to_string(),
-                    true => format!(
-                        " The throws scatter {} times more than their own errors say: the errors \
-                         stated here are larger by as much.",
-                        significant(scatter, 2)
-                    ),
-                };
-            }
+            text += &best.throws.as_ref().map_or(String::new(), agreement);
             text
         }
         (Verdict::UnknownEffect, _) => format!(
@@ -71,6 +62,43 @@ fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
             nearest_of_throws(diagnosis)
         ),
     }
+}
+
+/// How throws agree, in a sentence.
+fn agreement(throws: &Agreement) -> String {
+    let Some(p_value) = throws.p_value else { return String::new() };
+    if p_value >= FALSE_ALARM {
+        return " The throws agree on it.".to_string();
+    }
+    let scatter = significant(throws.scatter, 2);
+    match throws.is_shared {
+        true => format!(
+            " The throws scatter {scatter} times more than their own errors say: the errors stated \
+             here are larger by as much."
+        ),
+        false => format!(
+            " But it isn't the same in all: the throws scatter {scatter} times more than their own \
+             errors say, and each has its own{}; stated here is the mean.",
+            spread(throws)
+        ),
+    }
+}
+
+/// From where to where the throws' own numbers go.
+fn spread(throws: &Agreement) -> String {
+    let Some(first) = throws.each.first() else { return String::new() };
+    let of = |name: &String| {
+        let own = throws.each.iter().filter_map(|throw| match throw.parameters[name].value {
+            Some(Number::Scalar(value)) => Some(value),
+            _ => None,
+        });
+        let own: Vec<f64> = own.collect();
+        let (least, most) =
+            (own.iter().copied().reduce(f64::min)?, own.into_iter().reduce(f64::max)?);
+        Some(format!("{name} from {} to {}", significant(least, 3), significant(most, 3)))
+    };
+    let all: Vec<String> = first.parameters.keys().filter_map(of).collect();
+    if all.is_empty() { String::new() } else { format!(" ({})", all.join(", ")) }
 }
 
 /// A candidate that is more probable than none, but isn't named: it leaves too much, or the throws
@@ -251,7 +279,7 @@ fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -
 /// `k = 0.150 ± 0.012 1/m`, and so on.
 pub(super) fn parameters(candidate: &CandidateReport) -> String {
     let one = |(name, estimate): (&String, &crate::reconstruct::ParameterEstimate)| {
-        let shown = |number: &crate::reconstruct::Number| {
+        let shown = |number: &Number| {
             let parts: Vec<String> =
                 number.components().iter().map(|value| significant(*value, 3)).collect();
             if parts.len() == 1 { parts[0].clone() } else { format!("[{}]", parts.join(", ")) }

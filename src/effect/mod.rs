@@ -116,6 +116,13 @@ pub struct Parameter {
     pub scan: Option<Scan>,
 }
 
+impl Parameter {
+    /// Whether it multiplies something: then twice and half of the null are as far from it.
+    pub(crate) fn is_factor(&self) -> bool {
+        self.bounds[0] > 0.0
+    }
+}
+
 /// What has parameters of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

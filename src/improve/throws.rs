@@ -33,7 +33,7 @@ pub fn improve_throws(
         let added = &candidates[0];
         let setting = (0..throws.len()).find_map(|index| added.held(index));
         let setting = setting.map(|held| with_values(&added.label, &held));
-        let alike = alike(&candidates, added, best.inflation);
+        let alike = alike(&candidates, added);
         let alike = alike.map(|other| other.label.clone()).collect();
         throws = best.throws;
         own = own.and_then(|own| with_own(&own, added));

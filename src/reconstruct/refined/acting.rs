@@ -83,7 +83,7 @@ impl Instance {
     /// Without the bounds that keep a parameter on one side of its null: estimates that are to be
     /// averaged must be free to scatter to both.
     pub(crate) fn freely(mut self) -> Instance {
-        for parameter in &mut self.effect.parameters {
+        for parameter in self.effect.parameters.iter_mut().filter(|p| !p.is_factor()) {
             let [low, high] = parameter.bounds;
             for null in &parameter.null {
                 let reach = (high - null).max(null - low);

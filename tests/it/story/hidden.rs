@@ -155,3 +155,15 @@ fn time_offset() {
 fn depth_scale() {
     tell(boxes(1), effect("depth_scale", Some("b"), &[("s", &[1.03])]), &[]);
 }
+
+/// On a lone body a scale of depth is that of gravity: what is more general comes first.
+#[test]
+fn the_scale_of_gravity_of_a_lone_body() {
+    let scale = effect("gravity_scale", None, &[("s", &[0.95])]);
+    let scene = with(box_on_floor(1), &[scale]).scene;
+    let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
+    let first = &diagnosis.candidates[0];
+    assert_eq!(first.label(), "gravity_scale", "{}", diagnosis.explanation);
+    let alike = &first.indistinguishable_from;
+    assert!(alike.contains(&"depth_scale@a".to_string()), "{alike:?}");
+}

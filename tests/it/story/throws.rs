@@ -89,9 +89,93 @@ fn throws_without_anything_hidden_show_nothing() {
 /// As of balls that aren't the same.
 #[test]
 fn throws_that_disagree_are_told_of() {
-    let diagnosis = told(&thrown(&[0.02, 0.04, 0.06, 0.08]));
+    let factors = [0.02, 0.04, 0.06, 0.08];
+    let scenes = thrown(&factors);
+    let diagnosis = told(&scenes);
     let drag = diagnosis.candidates.iter().find(|one| one.effect == "quadratic_drag").unwrap();
     let agreement = drag.throws.as_ref().unwrap();
     assert!(agreement.p_value.unwrap() < 0.01 && agreement.scatter > 1.5, "{agreement:?}");
-    assert_ne!(diagnosis.candidates[0].effect, "quadratic_drag", "{}", diagnosis.explanation);
+    // Each has its own.
+    assert_eq!(diagnosis.candidates[0].label(), "quadratic_drag@a", "{}", diagnosis.explanation);
+    assert_eq!(diagnosis.verdict, Verdict::Missing, "{}", diagnosis.explanation);
+    assert!(!agreement.is_shared && diagnosis.explanation.contains("isn't the same in all"));
+    for (throw, truth) in agreement.each.iter().zip(factors) {
+        let k = &throw.parameters["k"];
+        let (Some(Number::Scalar(value)), Some(Number::Scalar(std))) = (&k.value, &k.std) else {
+            panic!("{k:?}")
+        };
+        assert!((value - truth).abs() < 4.0 * std, "{}: {k:?}, not {truth}", throw.scene);
+    }
+    let improvement = improve_throws(&scenes, &RefinedOptions::default(), &[]).unwrap();
+    assert_eq!(last(&improvement).with, ["quadratic_drag@a"], "free in each");
+    assert_eq!(improvement.verdict, Verdict::Missing);
+}
+
+/// As a ball has it whose tracked point is off its centre, and turns unseen once the ball has rubbed on the
+/// floor: something is left in each throw, so that it says less of the drag than its noise alone lets it.
+#[test]
+fn throws_that_swing_agree_within_what_they_leave_over() {
+    let offset = [0.004, 0.003, 0.0];
+    let throw = |index: u64| {
+        let mut spec = loaded(SimulationSpec::random_ball_drop(index), offset.into());
+        spec.name = format!("throw {index}");
+        spec.bodies[0].measure_orientation = Some(true);
+        spec.bodies[0].angular_velocity = Some([0.0; 3]);
+        spec.bodies[0].velocity = Some([1.5 + 0.3 * index as f64, -4.0, 0.5]);
+        spec.noise = NoiseSpec::Gaussian(Noise { position: 0.0003, ..NOISE });
+        spec.seed = index;
+        let hidden = [
+            effect("com_offset", Some("a"), &[("offset", &offset)]),
+            effect("friction", Some("a"), &[("mu", &[0.3])]),
+            effect("quadratic_drag", Some("a"), &[("k", &[0.1])]),
+        ];
+        let mut file = with(spec, &hidden).scene_file;
+        let poses = file.bodies[0].observations.iter_mut().flatten();
+        poses.for_each(|pose| pose.orientation = None);
+        Scene::from_file(file).unwrap()
+    };
+    let scenes: Vec<Scene> = (1..4).map(throw).collect();
+    let effects = requests(&["friction@a".into()]);
+    let options = RefinedOptions { effects, ..RefinedOptions::default() };
+    let diagnosis = diagnose_throws(&scenes, &options, &[]).unwrap();
+    let first = &diagnosis.candidates[0];
+    let named = [first.label()].into_iter().chain(first.indistinguishable_from.clone());
+    assert!(named.into_iter().any(|name| name == "quadratic_drag@a"), "{first:?}");
+    assert!(diagnosis.stays_structured, "else nothing swings");
+    let drag = diagnosis.candidates.iter().find(|one| one.effect == "quadratic_drag").unwrap();
+    let k = &drag.parameters["k"];
+    let (Some(Number::Scalar(value)), Some(Number::Scalar(std))) = (&k.value, &k.std) else {
+        panic!("{k:?}")
+    };
+    assert!((value - 0.1).abs() < 4.0 * std && *std < 0.02, "{k:?}");
+    let agreement = drag.throws.as_ref().unwrap();
+    assert!(agreement.p_value.unwrap() > 0.01, "{agreement:?}");
+}
+
+/// A common factor of a lone body's moments can't be seen: only their ratios are the same in all throws,
+/// wherever each throw's own estimate lies along it.
+#[test]
+fn throws_of_a_hollow_box_agree_on_the_ratios_of_its_moments() {
+    let factors = [1.15, 0.9, 1.0];
+    let throw = |index: u64| {
+        let mut spec = annotated(SimulationSpec::random_box_drop(1), index);
+        spec.name = format!("throw {index}");
+        let spin = [[4.0, 1.0, -2.0], [-1.0, 3.0, 2.0], [2.0, -3.0, 4.0]][index as usize];
+        spec.bodies[0].angular_velocity = Some(spin);
+        with(spec, &[effect("inertia", Some("a"), &[("factor", &factors)])]).scene
+    };
+    let scenes: Vec<Scene> = (0..3).map(throw).collect();
+    let diagnosis = told(&scenes);
+    let first = &diagnosis.candidates[0];
+    assert_eq!(first.label(), "inertia@a", "{}", diagnosis.explanation);
+    assert!(first.throws.as_ref().unwrap().p_value.unwrap() > 0.01, "{first:?}");
+    let Some(Number::Vector(found)) = &first.parameters["factor"].value else {
+        panic!("{first:?}")
+    };
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        let off = (found[i] / found[j]) / (factors[i] / factors[j]);
+        // The base model is off by up to 28 %; the noise leaves some 0.2 %.
+        assert!((off - 1.0).abs() < 0.01, "{i}, {j}: {found:?}");
+    }
+    assert!(first.parameters["factor"].std.is_none(), "none of them is told alone: {first:?}");
 }
