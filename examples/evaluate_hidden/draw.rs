@@ -17,7 +17,7 @@ use crate::strength::{Hidden, acted_on};
 /// How often the bodies are seen.
 #[derive(Clone, Copy)]
 pub enum Regime {
-    /// Every frame, 48 to 72 poses of each body.
+    /// Every frame, up to 84 poses of each body.
     Dense,
     /// 20 poses, unevenly.
     Medium,
@@ -25,6 +25,8 @@ pub enum Regime {
     Sparse,
 }
 
+/// Of the films.
+const FPS: f64 = 60.0;
 /// What a base fit to the exact poses must miss them by, in χ²: below that nobody can be sure.
 const LEAST_LAMBDA: f64 = 60.0;
 /// Beyond that an effect is plain to see.
@@ -108,7 +110,11 @@ fn stream(effects: &[&str], regime: Regime) -> u64 {
 
 /// What collides, such that it can show the effects.
 fn kind(effects: &[&str], random: &mut ChaCha8Rng) -> fn(u64) -> SimulationSpec {
-    let needs_pair = effects.iter().any(|name| matches!(*name, "time_offset" | "depth_scale"));
+    // On a lone body nothing tells a constant force from a tilt of gravity, or a scale of depth from that
+    // of gravity.
+    let is_of_pairs =
+        |name: &&str| matches!(*name, "time_offset" | "depth_scale" | "constant_force");
+    let needs_pair = effects.iter().any(is_of_pairs);
     let needs_floor = effects.contains(&"friction");
     let is_pair = needs_pair || (!needs_floor && random.random_bool(0.7));
     let needs_box = effects.contains(&"inertia");
@@ -121,13 +127,20 @@ fn kind(effects: &[&str], random: &mut ChaCha8Rng) -> fn(u64) -> SimulationSpec 
     }
 }
 
-/// A collision without effects and noise, seen as often as the regime says.
+/// A collision without effects and noise, at a closing speed of 1 to 5 m/s, seen as often as the regime
+/// says.
 fn bare(
     draw: fn(u64) -> SimulationSpec,
     regime: Regime,
     random: &mut ChaCha8Rng,
 ) -> SimulationSpec {
     let mut spec = draw(random.next_u64());
+    spec.fps = Some(FPS);
+    match spec.collision.normal {
+        Some(normal) => hurry(&mut spec, normal, random.random_range(0.0..2.0)),
+        // A drop's own film is too short.
+        None => spec.collision.time += 0.5,
+    }
     for body in spec.bodies.iter_mut().filter(|body| body.shape.is_some()) {
         body.measure_orientation = None;
     }
@@ -139,9 +152,22 @@ fn bare(
     spec
 }
 
-/// A film of some frames on each side of the collision, and one of each of its parts.
+/// Lets two bodies approach faster by `closing_m_s`.
+fn hurry(spec: &mut SimulationSpec, normal: [f64; 3], closing_m_s: f64) {
+    for (body, sign) in spec.bodies.iter_mut().zip([-0.5, 0.5]) {
+        if let Some(velocity) = &mut body.velocity {
+            for (speed, along) in velocity.iter_mut().zip(normal) {
+                *speed += sign * closing_m_s * along;
+            }
+        }
+    }
+}
+
+/// A film of half a second or so on each side of the collision, and one frame of each of its parts.
 fn sampling(spec: &SimulationSpec, regime: Regime, random: &mut ChaCha8Rng) -> Sampling {
-    let [before, after] = [(); 2].map(|()| random.random_range(24..=36));
+    let longest_s = airborne_s(spec);
+    let [before, after] =
+        longest_s.map(|longest_s| (random.random_range(0.35..0.7_f64).min(longest_s) * FPS) as u32);
     let first_share = match regime {
         Regime::Dense => before,
         Regime::Medium => random.random_range(8..=12),
@@ -152,7 +178,7 @@ fn sampling(spec: &SimulationSpec, regime: Regime, random: &mut ChaCha8Rng) -> S
         Regime::Medium => 20 - first_share,
         Regime::Sparse => 9 - first_share,
     };
-    let collision_frame = spec.collision.time * spec.fps.unwrap_or(60.0);
+    let collision_frame = spec.collision.time * FPS;
     let (last_before, first_after) =
         (collision_frame.ceil() as u32 - 1, collision_frame.floor() as u32 + 1);
     let mut one_of_each = |first: u32, frames: u32, poses: u32| -> Vec<u32> {
@@ -162,6 +188,18 @@ fn sampling(spec: &SimulationSpec, regime: Regime, random: &mut ChaCha8Rng) -> S
     let mut frames = one_of_each(last_before + 1 - before, before, first_share);
     frames.extend(one_of_each(first_after, after, second_share));
     Sampling::Frames(frames.into_iter().map(f64::from).collect())
+}
+
+/// How long the bodies are well off a floor, before the collision and after it.
+fn airborne_s(spec: &SimulationSpec) -> [f64; 2] {
+    /// Of the way up and down: a body has its size.
+    const OFF: f64 = 0.8;
+    if spec.collision.normal.is_some() {
+        return [f64::INFINITY; 2];
+    }
+    let down_m_s = spec.bodies[0].velocity.map_or(0.0, |velocity| -velocity[1]);
+    let restitution = spec.collision.restitution.unwrap_or(1.0);
+    [down_m_s, restitution * down_m_s].map(|speed_m_s| OFF * 2.0 * speed_m_s / spec.gravity)
 }
 
 /// The exact scene with all effects, each strong enough to be found alone, and not found without.

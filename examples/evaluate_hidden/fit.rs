@@ -67,6 +67,17 @@ impl Fit {
                 Some(found) => (found - case.restitution).abs(),
                 None => f64::INFINITY,
             },
+            covered: [
+                result.mass_ratio.as_ref().zip(case.mass_ratio),
+                Some((&result.restitution, case.restitution)),
+            ]
+            .into_iter()
+            .flatten()
+            .filter_map(|(estimate, truth)| {
+                let [low, high] = estimate.interval_95?;
+                Some((low..=high).contains(&truth))
+            })
+            .collect(),
         }
     }
 }
@@ -80,6 +91,9 @@ pub struct Errors {
     /// |m / m_true − 1|; `None` against a static body.
     pub mass_ratio: Option<f64>,
     pub restitution: f64,
+    /// Whether the truth is in the 95 % intervals of the mass ratio and of the restitution, as far as
+    /// there are some.
+    pub covered: Vec<bool>,
 }
 
 impl Errors {

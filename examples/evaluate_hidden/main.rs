@@ -66,7 +66,7 @@ struct Arguments {
     /// Don't tell the noise of scenes with effects
     #[arg(long)]
     unstated: bool,
-    /// A folder that is there, to keep the scenes of single effects in: to look at one by one
+    /// A folder that is there, to keep the scenes with something hidden in: to look at one by one
     #[arg(long, value_name = "FOLDER")]
     keep: Option<PathBuf>,
     /// Instead, a folder of scenes case_*.json, each with its truth/case_*.json
@@ -112,9 +112,11 @@ fn of_seeds(arguments: &Arguments) -> Result<()> {
         .collect();
     let drawn = |(seed, name): &(u64, &str)| hidden_scene(&[name], Regime::of_seed(*seed), *seed);
     let singles = told(in_parallel(&singles, drawn)?, unstated)?;
-    if let Some(folder) = &arguments.keep {
-        singles.iter().try_for_each(|case| case.keep(folder))?;
-    }
+    let keep = |cases: &[Case]| match &arguments.keep {
+        Some(folder) => cases.iter().try_for_each(|case| case.keep(folder)),
+        None => Ok(()),
+    };
+    keep(&singles)?;
     tell(&singles, single::tables)?;
     if only.is_some() {
         return Ok(());
@@ -126,14 +128,16 @@ fn of_seeds(arguments: &Arguments) -> Result<()> {
         let pair = PAIRS[*seed as usize % PAIRS.len()];
         hidden_scene(&pair, Regime::of_seed(*seed / PAIRS.len() as u64), *seed)
     };
-    let pairs = in_parallel(&seeds(arguments.pairs), pair)?;
-    tell(&told(pairs, unstated)?, pair::table)?;
+    let pairs = told(in_parallel(&seeds(arguments.pairs), pair)?, unstated)?;
+    keep(&pairs)?;
+    tell(&pairs, pair::table)?;
     let outside = |seed: &u64| {
         let law = foreign::LAWS[*seed as usize % foreign::LAWS.len()];
         hidden_scene(&[law], Regime::of_seed(*seed / foreign::LAWS.len() as u64), *seed)
     };
-    let outside = in_parallel(&seeds(arguments.outside), outside)?;
-    tell(&told(outside, unstated)?, outside::table)?;
+    let outside = told(in_parallel(&seeds(arguments.outside), outside)?, unstated)?;
+    keep(&outside)?;
+    tell(&outside, outside::table)?;
     let shared: Vec<&str> =
         names.iter().copied().filter(|name| !OF_ONE_THROW.contains(name)).collect();
     let throws = |seed: &u64| {

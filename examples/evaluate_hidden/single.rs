@@ -19,6 +19,9 @@ pub struct Single {
     is_of_class: bool,
     base: Errors,
     with: Errors,
+    /// By how much χ² with the right effect is worse than with its parameters at the truth.
+    missed: f64,
+    name: String,
     /// Where the right effect doesn't come first.
     pub failure: Option<String>,
 }
@@ -30,9 +33,13 @@ impl Single {
         let answer = Answer::of(&case.scene)?;
         let with = Fit::of(case, &case.effects)?;
         let is_first = answer.is_first(case);
+        let missed = match &case.true_effects {
+            Some(known) => with.deviance - Fit::of(case, known)?.deviance,
+            None => f64::NAN,
+        };
         let failure = match is_first {
             true => None,
-            false => Some(failure(case, &answer, &with)?),
+            false => Some(failure(case, &answer, &with, missed)?),
         };
         Ok(Single {
             kind: case.kind(),
@@ -41,6 +48,8 @@ impl Single {
             is_of_class: answer.is_of_class(case),
             base: Fit::of(case, &[])?.errors(case),
             with: with.errors(case),
+            missed,
+            name: format!("{} {}", case.labels().join(" + "), case.name),
             answer,
             failure,
         })
@@ -54,12 +63,8 @@ const WORSE: f64 = 0.1;
 /// the right effect is worse than one with its true parameters, or leaves more than noise; the
 /// `data`, where the right model is no better than the one named; else the `rule` that decides
 /// between them.
-fn failure(case: &Case, answer: &Answer, with: &Fit) -> Result<String> {
+fn failure(case: &Case, answer: &Answer, with: &Fit, missed: f64) -> Result<String> {
     let behind = with.bic() - answer.fit(case)?.bic();
-    let missed = match &case.true_effects {
-        Some(known) => with.deviance - Fit::of(case, known)?.deviance,
-        None => f64::NAN,
-    };
     let cause = match () {
         () if missed > WORSE || with.errors(case).is_stuck() => "search",
         () if behind >= 0.0 => "data",
@@ -96,10 +101,19 @@ pub fn tables(cases: &[Case]) -> Result<String> {
     text += &naming("all", &all);
     text += "\n## Errors without the effect and with it\n\n\
          | hidden | χ² in its 95 % band | position / noise | orientation / noise | \
-         error of m without: median / 90 % | with | error of c without: median / 90 % | with | null |\n\
-         |---|---|---|---|---|---|---|---|---|\n";
+         error of m without: median / 90 % | with | error of c without: median / 90 % | with | null | m and c in their intervals |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n";
     kinds.iter().for_each(|kind| text += &errors(kind, &of(kind)));
     text += &errors("all", &all);
+    let stuck = singles.iter().filter(|single| single.missed > WORSE);
+    let stuck: Vec<String> =
+        stuck.map(|single| format!("{} by {:.1}", single.name, single.missed)).collect();
+    if singles.iter().all(|single| single.missed.is_finite()) {
+        let stuck = if stuck.is_empty() { "none".to_string() } else { stuck.join(", ") };
+        text +=
+            "\nFits with the right effect that end worse than with its parameters at the truth: ";
+        text += &format!("{stuck}.\n");
+    }
     let failures: Vec<&str> = singles.iter().filter_map(|s| s.failure.as_deref()).collect();
     if !failures.is_empty() {
         text += "\n## Not first\n\n\
@@ -148,12 +162,13 @@ fn errors(kind: &str, singles: &[&Single]) -> String {
         |pick: fn(&Single) -> &Errors| spread(singles.iter().filter_map(|s| pick(s).mass_ratio));
     let restitutions =
         |pick: fn(&Single) -> &Errors| spread(singles.iter().map(|s| pick(s).restitution));
+    let covered: Vec<bool> = singles.iter().flat_map(|s| s.with.covered.clone()).collect();
     // What isn't determined has no error: it is counted.
     let is_null = |s: &&&Single| {
         s.with.restitution.is_infinite() || s.with.mass_ratio.is_some_and(f64::is_infinite)
     };
     format!(
-        "| {kind} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
+        "| {kind} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
         percent(bands.iter().filter(|is_in_band| **is_in_band).count(), bands.len()),
         pooled(singles.iter().map(|s| s.with.position)),
         pooled(singles.iter().filter_map(|s| s.with.orientation)),
@@ -162,5 +177,6 @@ fn errors(kind: &str, singles: &[&Single]) -> String {
         restitutions(|s| &s.base),
         restitutions(|s| &s.with),
         singles.iter().filter(is_null).count(),
+        percent(covered.iter().filter(|is_covered| **is_covered).count(), covered.len()),
     )
 }
