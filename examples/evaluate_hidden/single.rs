@@ -108,7 +108,7 @@ pub fn tables(cases: &[Case]) -> Result<String> {
     let stuck = singles.iter().filter(|single| single.missed > WORSE);
     let stuck: Vec<String> =
         stuck.map(|single| format!("{} by {:.1}", single.name, single.missed)).collect();
-    if singles.iter().all(|single| single.missed.is_finite()) {
+    if singles.iter().any(|single| single.missed.is_finite()) {
         let stuck = if stuck.is_empty() { "none".to_string() } else { stuck.join(", ") };
         text +=
             "\nFits with the right effect that end worse than with its parameters at the truth: ";

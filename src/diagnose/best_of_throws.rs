@@ -29,6 +29,9 @@ pub(crate) fn put_best_first<'a>(
         let own = with_own(throws, &candidates[index]).unwrap_or(with);
         let dispersions = own.iter().map(dispersion).collect::<Result<Vec<f64>>>()?;
         *candidates = dispersed(throws, candidates, &dispersions);
+    } else if candidates[index].stands_out() {
+        candidates[..=index].rotate_right(1);
+        return Ok(Some(Best { is_structured: false, throws: with }));
     }
     let Some((index, throws)) = first(throws, candidates, PooledCandidate::stands_out) else {
         return Ok(None);

@@ -107,7 +107,7 @@ pub(super) fn promising(
 /// What the criterion of a body's effect is worse by than that of the scene's: next to nothing, so that
 /// of two that are the same by construction, as a lone body's scale of depth and that of gravity, the
 /// more general comes first.
-pub(super) fn of_a_body(instance: &Instance) -> f64 {
+pub(crate) fn of_a_body(instance: &Instance) -> f64 {
     if instance.body.is_some() { 0.1 } else { 0.0 }
 }
 

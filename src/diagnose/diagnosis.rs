@@ -112,9 +112,14 @@ pub struct Agreement {
     /// parameters are larger by as much (Birge's ratio).
     pub scatter: f64,
     /// Whether all throws are taken to have the same parameters; else each has its own.
+    #[serde(default = "yes")]
     pub is_shared: bool,
     /// Each throw's own estimate.
     pub each: Vec<ThrowEstimate>,
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// What one throw says of an effect.

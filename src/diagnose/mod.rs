@@ -38,7 +38,7 @@ pub use together::{ThrowValue, Together};
 pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use best_of_throws::{alike, put_best_first, with_own};
-pub(crate) use candidates::{Candidate, all_candidates};
+pub(crate) use candidates::{Candidate, all_candidates, of_a_body};
 pub(crate) use dependence::{inflation_of, quasi_bic};
 pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;

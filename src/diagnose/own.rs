@@ -77,14 +77,7 @@ impl Own {
 
     /// The effect's own numbers, and one standard deviation of each.
     pub(super) fn estimates(&self) -> (Vec<f64>, Vec<Option<f64>>) {
-        let size = self.values.len();
-        let stds = match self.weight().try_inverse() {
-            Some(inverse) => (0..size)
-                .map(|i| Some(inverse[(i, i)]).filter(|v| *v > 0.0).map(f64::sqrt))
-                .collect(),
-            None => vec![None; size],
-        };
-        in_numbers(&self.instance, &self.values, stds)
+        in_numbers(&self.instance, &self.values, deviations(&self.weight()))
     }
 
     /// How many directions of the values the throw tells.
@@ -95,8 +88,7 @@ impl Own {
 
 /// Whether each free scalar is a factor.
 fn are_factors(instance: &Instance) -> impl Iterator<Item = bool> {
-    let free = instance.effect.parameters.iter();
-    let free = free.filter(|parameter| !instance.fixed.contains_key(&parameter.name));
+    let free = instance.free_parameters();
     free.flat_map(|parameter| parameter.null.iter().map(|_| parameter.is_factor()))
 }
 
@@ -129,6 +121,19 @@ fn slopes(instance: &Instance, numbers: &[f64]) -> Vec<f64> {
 pub(super) fn off(values: &DVector<f64>, at: &DVector<f64>, information: &DMatrix<f64>) -> f64 {
     let off = values - at;
     off.dot(&(information * &off))
+}
+
+/// One standard deviation of each number of which an information tells.
+pub(super) fn deviations(information: &DMatrix<f64>) -> Vec<Option<f64>> {
+    /// A number of which so much isn't told isn't told: it has no part in the inverse.
+    const UNTOLD: f64 = 1e-6;
+    let size = information.nrows();
+    let Ok(inverse) = information.clone().pseudo_inverse(1e-12 * information.norm()) else {
+        return vec![None; size];
+    };
+    let told = &inverse * information;
+    let std = |i: usize| (told[(i, i)] > 1.0 - UNTOLD).then(|| inverse[(i, i)].max(0.0).sqrt());
+    (0..size).map(std).collect()
 }
 
 /// Σ I, without the throw `left_out`.

@@ -12,12 +12,11 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 use super::FALSE_ALARM;
 use super::candidates::of_a_body;
 use super::misses::{Misses, most_counted};
-use super::own::{Own, foretold, in_logarithms, in_numbers, information, mean, off, rank};
+use super::own::{
+    Own, deviations, foretold, in_logarithms, in_numbers, information, mean, off, rank,
+};
 use crate::Scene;
 use crate::reconstruct::refined::{Fitted, Instance};
-
-/// A number of which so much isn't told isn't told.
-const UNTOLD: f64 = 1e-6;
 
 /// A throw, and the model as it is so far.
 #[derive(Clone)]
@@ -35,7 +34,7 @@ pub(crate) struct PooledCandidate {
     /// Whether all throws have the same parameters; an impulse of a third party is each one's own, and
     /// what throws disagree on may be.
     pub(crate) is_shared: bool,
-    /// θ̄; empty of what is each throw's own by its nature.
+    /// Those of θ̄; empty of what is each throw's own by its nature.
     pub(crate) values: Vec<f64>,
     /// Of θ̄, with the scatter; `None` where no throw tells it.
     pub(crate) stds: Vec<Option<f64>>,
@@ -44,6 +43,8 @@ pub(crate) struct PooledCandidate {
     /// What counts of it.
     counted: f64,
     pub(crate) parameters: usize,
+    /// How many effects were.
+    tried: usize,
     pub(crate) p_value: f64,
     /// Schwarz's criterion, by what counts; below 0 where the effect helps.
     pub(crate) bic: f64,
@@ -64,22 +65,26 @@ impl PooledCandidate {
 
     /// The same, but with each throw's own parameters where the throws contradict each other, and that is
     /// worth so many.
-    fn or_each_its_own(self, throws: &[Throw], tried: usize) -> PooledCandidate {
+    fn or_each_its_own(self, throws: &[Throw]) -> PooledCandidate {
         if !self.is_shared || !self.disagree() {
             return self;
         }
-        let apart = each_its_own(throws, self.label.clone(), self.own.clone(), tried);
-        match apart.bic < self.bic {
+        let apart = each_its_own(throws, self.label.clone(), self.own.clone(), self.tried);
+        match apart.bic < self.bic && apart.is_possible {
             true => PooledCandidate {
                 values: self.values,
                 stds: self.stds,
                 agreement: self.agreement,
                 scatter: self.scatter,
-                is_possible: self.is_possible,
                 ..apart
             },
             false => self,
         }
+    }
+
+    /// Whether each throw has its own values of what all should share: beside that anything may be.
+    pub(crate) fn is_apart(&self) -> bool {
+        !self.is_shared && self.disagree()
     }
 
     fn disagree(&self) -> bool {
@@ -142,7 +147,8 @@ pub(crate) fn pooled(throws: &[Throw], instances: &[Vec<Instance>]) -> Vec<Poole
         let own: Vec<Option<Own>> = own.collect();
         (label, own)
     };
-    in_order(throws, labels.into_par_iter().map(each).collect())
+    let tried = labels.len();
+    in_order(throws, labels.into_par_iter().map(each).collect(), tried)
 }
 
 /// The same candidates where what a throw says counts for less by its own of `dispersions`.
@@ -158,16 +164,20 @@ pub(super) fn dispersed(
             });
         (candidate.label.clone(), own.collect())
     };
-    in_order(throws, candidates.iter().map(each).collect())
+    let tried = candidates.first().map_or(0, |candidate| candidate.tried);
+    in_order(throws, candidates.iter().map(each).collect(), tried)
 }
 
-fn in_order(throws: &[Throw], all: Vec<(String, Vec<Option<Own>>)>) -> Vec<PooledCandidate> {
-    let tried = all.len();
+fn in_order(
+    throws: &[Throw],
+    all: Vec<(String, Vec<Option<Own>>)>,
+    tried: usize,
+) -> Vec<PooledCandidate> {
     let all = all.into_iter().filter_map(|(label, own)| candidate(throws, label, own, tried));
     let mut all: Vec<PooledCandidate> = all.collect();
     // What is the same in all explains more than what may be anything in each.
     if !all.iter().any(|candidate| candidate.is_shared && candidate.stands_out()) {
-        all = all.into_iter().map(|candidate| candidate.or_each_its_own(throws, tried)).collect();
+        all = all.into_iter().map(|candidate| candidate.or_each_its_own(throws)).collect();
     }
     all.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     all
@@ -204,11 +214,7 @@ fn candidate(
         Ok(fisher) if disagree => fisher.sf(off(&mean, &null, &total) / count / scatter2),
         _ => 0.0,
     };
-    let inverse = total.clone().pseudo_inverse(1e-12 * total.norm()).ok()?;
-    // What the data don't tell at all has no part in the inverse.
-    let told = &inverse * &total;
-    let std = |i: usize| (told[(i, i)] > 1.0 - UNTOLD).then(|| (scatter2 * inverse[(i, i)]).sqrt());
-    let (values, stds) = in_numbers(&first.instance, &mean, (0..null.len()).map(std).collect());
+    let (values, stds) = in_numbers(&first.instance, &mean, deviations(&(&total / scatter2)));
     Some(PooledCandidate {
         label,
         is_possible: is_possible(&first.instance, &values, &stds),
@@ -217,6 +223,7 @@ fn candidate(
         delta: known.iter().map(|own| own.gain_at(&mean)).sum::<f64>().max(0.0),
         counted,
         parameters,
+        tried,
         p_value: (tried as f64 * single.max(by_scatter)).min(1.0),
         bic: bic(throws, counted, count) + of_a_body(&first.instance),
         agreement,
@@ -246,12 +253,17 @@ fn each_its_own(
         delta: known.iter().map(|own| own.gain).sum(),
         counted,
         parameters,
+        tried,
         p_value: (tried as f64 * significance(throws, &known, counted, count)).min(1.0),
-        bic: bic(throws, counted, count),
+        bic: bic(throws, counted, count)
+            + known.first().map_or(0.0, |own| of_a_body(&own.instance)),
         agreement: None,
         scatter: 1.0,
         predicts: true,
-        is_possible: true,
+        is_possible: known.iter().all(|own| {
+            let (values, stds) = own.estimates();
+            is_possible(&own.instance, &values, &stds)
+        }),
         own,
     }
 }
@@ -276,8 +288,7 @@ fn significance(throws: &[Throw], known: &[&Own], fall: f64, count: f64) -> f64 
 fn is_possible(instance: &Instance, values: &[f64], stds: &[Option<f64>]) -> bool {
     /// Deviations.
     const BEYOND: f64 = 3.0;
-    let free = instance.effect.parameters.iter();
-    let free = free.filter(|parameter| !instance.fixed.contains_key(&parameter.name));
+    let free = instance.free_parameters();
     let bounds = free.flat_map(|parameter| parameter.null.iter().map(|_| parameter.bounds));
     bounds.zip(values.iter().zip(stds)).all(|([low, high], (value, std))| {
         let beyond = BEYOND * std.unwrap_or(f64::INFINITY);
@@ -286,7 +297,5 @@ fn is_possible(instance: &Instance, values: &[f64], stds: &[Option<f64>]) -> boo
 }
 
 fn free_null(instance: &Instance) -> Vec<f64> {
-    let free = instance.effect.parameters.iter();
-    let free = free.filter(|parameter| !instance.fixed.contains_key(&parameter.name));
-    free.flat_map(|parameter| parameter.null.iter().copied()).collect()
+    instance.free_parameters().flat_map(|parameter| parameter.null.iter().copied()).collect()
 }

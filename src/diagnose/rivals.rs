@@ -1,14 +1,17 @@
 //! Laws that the catalogue hasn't got, held against the best that it has: a name isn't given with
 //! confidence where a law of a simple form explains as much.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::evidence::evidence;
-use super::forms::{LawForm, forms};
-use super::{Candidate, FALSE_ALARM};
-use crate::effect::Scan;
+use super::forms::{LawForm, forms, law_of};
+use super::ranking::TELLS_APART;
+use super::{Candidate, FALSE_ALARM, of_a_body};
+use crate::effect::Effect;
 use crate::reconstruct::refined::{Fitted, Instance, gains, possible};
 use crate::{Result, Scene};
 
@@ -24,7 +27,7 @@ pub struct OtherLaw {
     pub body: Option<String>,
     /// What it goes with, in words.
     pub goes_with: String,
-    /// As a line of an effect file's `[law]`.
+    /// As lines of an effect file's `[law]`, joined by `and`.
     pub law: String,
     /// By how much χ² falls with it; as improbable, where the noise is estimated.
     pub delta_chi2: f64,
@@ -56,32 +59,67 @@ impl OtherLaw {
         let instance = candidate.instance();
         let body = instance.body.map(|body| &scene.bodies()[body].name);
         let is_same_body = scene.bodies().len() == 1 || body == self.body.as_ref();
-        is_same_body && is_held(&instance.effect.name) && candidate.bic <= self.bic
+        is_same_body
+            && is_held(&instance.effect.name)
+            && candidate.bic - of_a_body(instance) <= self.bic
     }
 }
 
-/// A push that lasts, where `candidate` is an impact at a time of its own and no pose tells whether it
-/// was as short as one.
-pub(super) fn lasting_push(candidate: &Candidate, scene: &Scene) -> Option<OtherLaw> {
-    /// Two bodies hardly touch for longer, s.
-    const SHORT_S: f64 = 0.05;
+/// A push that lasts for a tenth of a second, where `candidate`, which extends `fitted`,
+/// is an impact at a time of its own, and the poses can't tell the two apart. `tried`: how many candidates there are beside it.
+pub(super) fn lasting_push(
+    fitted: &Fitted,
+    candidate: &Candidate,
+    scene: &Scene,
+    tried: usize,
+) -> Option<OtherLaw> {
+    /// Two bodies hardly touch for half of it.
+    const LASTING_S: f64 = 0.1;
     let acting = candidate.fitted.acting.last()?;
-    let (Scan::GapTimes, place) = acting.instance.scan()? else { return None };
-    let body = &scene.bodies()[acting.instance.body?];
+    // Its numbers are a time, an impulse and a spin, in this order.
+    if acting.instance.effect.name != "second_impact" {
+        return None;
+    }
+    let body = acting.instance.body?;
     let unknowns = &candidate.fitted.best().solution.unknowns;
-    let time_s = unknowns.parameters[acting.first + place];
-    let after = body.observations.partition_point(|seen| seen.time_s < time_s);
-    let [from_s, to_s] =
-        [after.checked_sub(1)?, after].map(|index| body.observations.get(index).map(|o| o.time_s));
-    let (from_s, to_s) = (from_s?, to_s?);
-    (to_s - from_s > SHORT_S).then(|| OtherLaw {
-        body: Some(body.name.clone()),
-        goes_with: format!("time: a push that lasts, at most from {from_s:.3} s to {to_s:.3} s"),
-        law: "acceleration = \"step(t - from) * step(to - t) * a\"".to_string(),
-        delta_chi2: candidate.evidence.delta_chi2,
-        parameters_added: candidate.evidence.parameters,
-        bic: candidate.bic,
+    let time_s = unknowns.parameters[acting.first];
+    let [from_s, to_s] = [time_s - 0.5 * LASTING_S, time_s + 0.5 * LASTING_S];
+    let mut instance = Instance { effect: push(), body: Some(body), fixed: BTreeMap::new() };
+    instance.fixed.insert("from".to_string(), vec![from_s]);
+    instance.fixed.insert("rate".to_string(), vec![1.0 / (to_s - from_s)]);
+    // The impact's own numbers, spread over that time.
+    let number = |place: usize| unknowns.parameters[acting.first + place];
+    let spread = (1..acting.count).map(|place| number(place) / (to_s - from_s));
+    let values: Vec<f64> = [from_s, 1.0 / (to_s - from_s)].into_iter().chain(spread).collect();
+    let with = fitted.with_from(&instance, &candidate.fitted, &values).ok()?;
+    let evidence = evidence(fitted, &with, 1, tried + 1)?;
+    let bic = evidence.bic(with.numbers(), None);
+    (bic < candidate.bic + TELLS_APART).then(|| OtherLaw {
+        body: Some(scene.bodies()[body].name.clone()),
+        goes_with: format!("time: a push that lasts, from {from_s:.3} s to {to_s:.3} s"),
+        law: PUSH.map(|(hook, law)| format!("{hook} = \"{law}\"")).join(" and "),
+        delta_chi2: evidence.delta_chi2,
+        parameters_added: evidence.parameters,
+        bic,
     })
+}
+
+/// The laws of a push that lasts, by their hooks: it rises and falls evenly, since no flight can be
+/// followed over a jump.
+const PUSH: [(&str, &str); 2] = [
+    (
+        "acceleration",
+        "step(t - from) * step(1 - rate * (t - from)) * (1 - cos(6.2832 * rate * (t - from))) * a",
+    ),
+    (
+        "torque",
+        "step(t - from) * step(1 - rate * (t - from)) * (1 - cos(6.2832 * rate * (t - from))) * b",
+    ),
+];
+
+fn push() -> Effect {
+    let own = [("from", "s", 1), ("rate", "1/s", 1), ("a", "m/s^2", 3), ("b", "m^2/s^2", 3)];
+    law_of(&PUSH, &own.map(|(name, unit, count)| (name.to_string(), unit.to_string(), count)))
 }
 
 /// The laws that explain `scene` significantly better than its model, the best first. `tried`: how

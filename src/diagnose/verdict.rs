@@ -65,9 +65,9 @@ pub(super) fn diagnosis(
         _ if before.is_structured => Verdict::UnknownEffect,
         _ => Verdict::NothingMissing,
     };
-    // It is the same but for how long it lasts: it takes no part in what decides.
-    let lasting =
-        first.filter(|_| verdict == Verdict::Missing).and_then(|f| lasting_push(f, scene));
+    // An impact is a push that is short: it takes no part in what decides.
+    let named = first.filter(|_| verdict == Verdict::Missing);
+    let lasting = named.and_then(|first| lasting_push(fitted, first, scene, instances.len()));
     other_laws.extend(lasting);
     let mut unexplained = match (verdict, rest) {
         (Verdict::UnknownEffect, _) => unexplained(scene, fitted)?,

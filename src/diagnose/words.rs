@@ -111,6 +111,10 @@ fn nearest_of_throws(diagnosis: &Diagnosis) -> String {
     let agreement = best.throws.as_ref();
     let scatters = agreement.filter(|a| a.p_value.is_some_and(|p| p < FALSE_ALARM));
     let but = match scatters {
+        Some(agreement) if !agreement.is_shared => format!(
+            "it isn't the same in all{}, and leaves too much to be the only cause",
+            spread(agreement)
+        ),
         Some(agreement) => format!(
             "the throws scatter {} times more about it than their own errors say, and so few prove \
              nothing: film more of them",
@@ -119,7 +123,8 @@ fn nearest_of_throws(diagnosis: &Diagnosis) -> String {
         None if best.stands_out => "it leaves too much to be the only cause".to_string(),
         None => return String::new(),
     };
-    let values = match best.parameters.is_empty() {
+    let is_told = agreement.is_none_or(|agreement| agreement.is_shared);
+    let values = match best.parameters.is_empty() || !is_told {
         true => String::new(),
         false => format!(" ({})", parameters(best)),
     };

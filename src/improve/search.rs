@@ -4,7 +4,7 @@
 
 use crate::diagnose::{
     Candidate, FALSE_ALARM, Goodness, Leftover, TELLS_APART, all_candidates, evidence,
-    inflation_of, look_alikes, quasi, quasi_bic, rivals, tried,
+    inflation_of, look_alikes, of_a_body, quasi, quasi_bic, rivals, tried,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{Fitted, Instance, points};
@@ -190,5 +190,6 @@ fn bic_of_last(scene: &Scene, without: &Fitted, with: &Fitted) -> f64 {
     let scanned = points(scene, &last.instance).len().max(1);
     let poses = last.instance.is_of_a_pose().then_some(scanned);
     // How many were tried has no part in it. What the data don't depend on costs nothing.
-    evidence(without, with, scanned, 1).map_or(0.0, |evidence| evidence.bic(with.numbers(), poses))
+    evidence(without, with, scanned, 1)
+        .map_or(0.0, |evidence| evidence.bic(with.numbers(), poses) + of_a_body(&last.instance))
 }

@@ -31,6 +31,7 @@ pub fn improve_throws(
         let mut candidates = pooled(&throws, &instances(&throws, further)?);
         let Some(best) = put_best_first(&throws, &mut candidates)? else { break };
         let added = &candidates[0];
+        let is_last = added.is_apart();
         let setting = (0..throws.len()).find_map(|index| added.held(index));
         let setting = setting.map(|held| with_values(&added.label, &held));
         let alike = alike(&candidates, added);
@@ -45,6 +46,9 @@ pub fn improve_throws(
             indistinguishable_from: alike,
             ..rung(&throws, with)?
         });
+        if is_last {
+            break;
+        }
     }
     let (_, is_structured) = looks(&throws)?;
     let verdict = match (ladder.len() > 1, is_structured) {

@@ -151,6 +151,12 @@ impl Instance {
         parameters.flat_map(|p| self.fixed.get(&p.name).unwrap_or(&p.null)).copied().collect()
     }
 
+    /// Those that aren't known.
+    pub(crate) fn free_parameters(&self) -> impl Iterator<Item = &Parameter> {
+        let parameters = self.effect.parameters.iter();
+        parameters.filter(|parameter| !self.fixed.contains_key(&parameter.name))
+    }
+
     /// Adds the laws to a scene.
     pub(crate) fn act_on(&self, scene: &mut RefinedScene) -> Acting {
         let first = scene.parameters.len();

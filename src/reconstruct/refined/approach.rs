@@ -24,9 +24,12 @@ pub(super) fn approached(
     let ways: Vec<(f64, f64)> = null.copied().zip(held).collect();
     let at = |unknowns: &RefinedUnknowns, share: f64| {
         let mut start = unknowns.clone();
-        let own = &mut start.parameters[acting.first..acting.first + acting.count];
-        for (value, (from, to)) in own.iter_mut().zip(&ways) {
-            *value = from + share * (to - from);
+        let place = acting.first..acting.first + acting.count;
+        let own = start.parameters[place.clone()].iter_mut().zip(&refined.parameters[place]);
+        for ((value, rule), (from, to)) in own.zip(&ways) {
+            if rule.held {
+                *value = from + share * (to - from);
+            }
         }
         start
     };

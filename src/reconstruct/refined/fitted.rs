@@ -72,7 +72,33 @@ impl Fitted {
     /// # Errors
     /// No start leads to a solution.
     pub(crate) fn with_quickly(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
-        let mut fitted = self.extended(scene, instance)?;
+        self.settled_once(self.extended(scene, instance)?)
+    }
+
+    /// As [`Fitted::with_quickly`], from where `near` is, a fit that extends this, too, and from `values` of
+    /// the effect's own numbers.
+    ///
+    /// # Errors
+    /// The start leads to no solution.
+    pub(crate) fn with_from(
+        &self,
+        instance: &Instance,
+        near: &Fitted,
+        values: &[f64],
+    ) -> Result<Fitted> {
+        let mut refined = self.refined.clone();
+        let acting = instance.act_on(&mut refined);
+        let mut start = near.best().solution.unknowns.clone();
+        start.parameters.truncate(acting.first);
+        start.parameters.extend(values);
+        let optima = optima_from(&refined, &[(start, near.best().gap)])?;
+        let mut fitted = Fitted { refined, optima, ..self.clone() };
+        fitted.acting.push(acting);
+        self.settled_once(fitted)
+    }
+
+    /// `fitted`, which extends this, with noise that isn't stated estimated anew once.
+    fn settled_once(&self, mut fitted: Fitted) -> Result<Fitted> {
         if self.loss == Loss::Squares && self.stated.is_none() {
             fitted.optima.truncate(1);
             fitted.noise =

@@ -67,7 +67,8 @@ pub(super) fn without_a_pose(
     solved.into_iter().take(MOST_POINTS).map(|solved| solved.start).collect()
 }
 
-/// Whether a fit has lost its way: what is missing alone hardly leaves so much.
+/// Whether a fit has lost its way: what is missing alone hardly leaves so much. Where the noise isn't
+/// stated only turns tell: a spin that has wrapped is what leads astray.
 fn is_lost(nested: &Fitted) -> bool {
     /// Of what noise leaves.
     const FAR: f64 = 10.0;

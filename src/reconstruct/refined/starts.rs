@@ -89,7 +89,8 @@ pub(super) fn starts(
 fn held(refined: &RefinedScene, index: usize, likely: &[Start]) -> Vec<Start> {
     let mut still = refined.clone();
     still.parameters[index].held = true;
-    let optima = likely.iter().filter_map(|start| optima_from(&still, &[start.clone()]).ok());
+    let optima =
+        likely.iter().filter_map(|start| optima_from(&still, std::slice::from_ref(start)).ok());
     let mut optima: Vec<Optimum> = optima.filter_map(|optima| optima.into_iter().next()).collect();
     optima.sort_by(|a, b| a.solution.cost.total_cmp(&b.solution.cost));
     let best = optima.into_iter().take(MOST_POINTS);

@@ -167,3 +167,23 @@ fn the_scale_of_gravity_of_a_lone_body() {
     let alike = &first.indistinguishable_from;
     assert!(alike.contains(&"depth_scale@a".to_string()), "{alike:?}");
 }
+
+/// A push that lasts a tenth of a second does as well where it is weak; a strong one's bend would show.
+#[test]
+fn an_impact_or_a_push_that_lasts() {
+    let told = |size: f64| {
+        let mut spec = boxes(1);
+        spec.observations =
+            Sampling::Regular(RegularSampling { interval: 1, frame_count: 90, gap: None });
+        let impulse = [size, size, -0.5 * size];
+        let spin = [0.0, 0.01 * size, 0.0];
+        let numbers: [(&str, &[f64]); 3] =
+            [("time", &[1.133]), ("impulse", &impulse), ("spin", &spin)];
+        let scene = with(spec, &[effect("second_impact", Some("a"), &numbers)]).scene;
+        let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
+        let first = diagnosis.candidates[0].label();
+        assert_eq!(first, "second_impact@a", "{}", diagnosis.explanation);
+        diagnosis.other_laws.iter().any(|law| law.goes_with.contains("a push that lasts"))
+    };
+    assert!(told(0.1) && !told(0.8));
+}

@@ -40,7 +40,7 @@ fn a_strong_drag_may_be_known() {
         format!("{}/tests/data/stuck/quadratic_drag_seed_10013.json", env!("CARGO_MANIFEST_DIR"));
     let scene = Scene::read(&path).unwrap();
     let free = fit(&scene, &["quadratic_drag@a".into()]);
-    let Some(Number::Scalar(k)) = free.effects[0].parameters["k"].value.clone() else { panic!() };
+    let Some(Number::Scalar(k)) = free.effects[0].parameters["k"].value else { panic!() };
     let known = fit(&scene, &[format!("quadratic_drag@a:k={k}")]);
     let [chi2, free_chi2] = [&known, &free].map(|result| result.fit.chi2.unwrap());
     assert!((chi2 / free_chi2 - 1.0).abs() < 1e-6, "{chi2}, {free_chi2}");

@@ -178,4 +178,7 @@ fn throws_of_a_hollow_box_agree_on_the_ratios_of_its_moments() {
         assert!((off - 1.0).abs() < 0.01, "{i}, {j}: {found:?}");
     }
     assert!(first.parameters["factor"].std.is_none(), "none of them is told alone: {first:?}");
+    for throw in &first.throws.as_ref().unwrap().each {
+        assert!(throw.parameters["factor"].std.is_none(), "{throw:?}");
+    }
 }
