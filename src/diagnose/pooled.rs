@@ -43,7 +43,7 @@ pub(crate) struct PooledCandidate {
     /// What counts of it.
     counted: f64,
     pub(crate) parameters: usize,
-    /// How many effects were.
+    /// How many effects were tried.
     tried: usize,
     pub(crate) p_value: f64,
     /// Schwarz's criterion, by what counts; below 0 where the effect helps.
@@ -88,7 +88,7 @@ impl PooledCandidate {
     }
 
     fn disagree(&self) -> bool {
-        self.agreement.is_some_and(|p_value| p_value < FALSE_ALARM)
+        contradict(self.agreement)
     }
 
     /// By how much its criterion is worse than that of `other`; where something is left that none explains,
@@ -202,7 +202,7 @@ fn candidate(
     let spread = (parameters * (known.len() - 1)) as f64;
     let scatter2 = if spread > 0.0 { (q / spread).max(1.0) } else { 1.0 };
     let agreement = ChiSquared::new(spread).ok().map(|chi| chi.sf(q));
-    let disagree = agreement.is_some_and(|p| p < FALSE_ALARM);
+    let disagree = contradict(agreement);
     let gains = known.iter().map(|own| own.gain_at(&mean) / own.dispersion);
     // What chance lets scatter counts in full.
     let counted = (gains.sum::<f64>() / if disagree { scatter2 } else { 1.0 }).max(0.0);
@@ -282,6 +282,11 @@ fn significance(throws: &[Throw], known: &[&Own], fall: f64, count: f64) -> f64 
     let spare: f64 = known.iter().map(|own| own.spare).sum();
     let f = (fall / spare).exp_m1() * spare / count;
     FisherSnedecor::new(count, spare.max(1.0)).map_or(1.0, |fisher| fisher.sf(f))
+}
+
+/// Whether throws that differ as improbably as this contradict each other.
+fn contradict(agreement: Option<f64>) -> bool {
+    agreement.is_some_and(|p_value| p_value < FALSE_ALARM)
 }
 
 /// Whether `values` are within the effect's bounds, or beyond them by no more than their errors.

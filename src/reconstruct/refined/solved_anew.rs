@@ -7,21 +7,16 @@ use super::model::refined_scene;
 use super::parabolas::Parabolas;
 use super::solve::solve;
 use super::starts::{MOST_POINTS, Start, points};
+use crate::Scene;
 use crate::reconstruct::Loss;
 use crate::scene::Gap;
-use crate::{Result, Scene};
 
 /// Of more poses a single one misleads nobody.
 const FEW_POSES: usize = 32;
 
 /// With a body's stamps moved: the delay may be more than a segment. Which delays are worth it the
 /// parabolas tell.
-pub(super) fn delayed(
-    nested: &Fitted,
-    scene: &Scene,
-    acting: &Acting,
-    place: usize,
-) -> Result<Vec<Start>> {
+pub(super) fn delayed(nested: &Fitted, scene: &Scene, acting: &Acting, place: usize) -> Vec<Start> {
     let mut moved: Vec<(f64, f64, Scene)> = points(scene, &acting.instance)
         .into_iter()
         .filter_map(|delay_s| {
@@ -31,12 +26,10 @@ pub(super) fn delayed(
         })
         .collect();
     moved.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let moved = moved.into_iter().take(MOST_POINTS);
-    Ok(moved
-        .filter_map(|(_, delay_s, moved)| {
-            Some(solved_anew(nested, &moved, acting, (place, delay_s))?.start)
-        })
-        .collect())
+    let likely = moved.into_iter().take(MOST_POINTS);
+    let solved = likely
+        .filter_map(|(_, delay_s, moved)| solved_anew(nested, &moved, acting, (place, delay_s)));
+    solved.map(|solved| solved.start).collect()
 }
 
 /// Without each pose in turn, the best first; nothing where the poses aren't few, or the model isn't far

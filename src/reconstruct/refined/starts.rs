@@ -61,7 +61,7 @@ pub(super) fn starts(
                 starts.extend(freed(nested, scene, refined, acting).unwrap_or_default());
             }
         }
-        Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)?),
+        Some((Scan::Frames, place)) => starts.extend(delayed(nested, scene, acting, place)),
         Some((scan, place)) => {
             let mut scanned = scanned(nested, scene, &acting.instance)?;
             scanned.sort_by(|a, b| b.gain.total_cmp(&a.gain));
