@@ -59,16 +59,13 @@ impl Diagnoses {
         known.found.get().and_then(|found| found.as_ref().ok()).cloned()
     }
 
-    /// What was found, or what `diagnose` finds now, unless `is_stale` by the time that its turn comes.
+    /// What was found, or what `diagnose` finds now; none if it `is_stale` by the time that its turn comes.
     pub(super) fn found(
         &self,
         subject: Subject,
         diagnose: impl FnOnce() -> Result<Diagnosis> + Send,
         is_stale: impl Fn() -> bool,
-    ) -> Result<Diagnosis> {
-        let overtaken = || {
-            Err(Error::new(ErrorKind::Solve, "another variant is seen by now").mend("ask again"))
-        };
+    ) -> Result<Option<Diagnosis>> {
         let place = self.asked(subject);
         let found = match place.get() {
             Some(found) => found.clone(),
@@ -76,12 +73,12 @@ impl Diagnoses {
                 let cores = locked(&self.cores);
                 // Whoever waited long may have been overtaken.
                 if is_stale() {
-                    return overtaken();
+                    return Ok(None);
                 }
                 place.get_or_init(|| cores.install(diagnose)).clone()
             }
         };
-        if is_stale() { overtaken() } else { found }
+        if is_stale() { Ok(None) } else { found.map(Some) }
     }
 
     /// The place of a diagnosis, made if need be.
@@ -100,11 +97,12 @@ impl Diagnoses {
 }
 
 impl Studio {
-    /// Which effect the current variant lacks; found once, and kept. Acts don't wait for it.
+    /// Which effect the current variant lacks; found once, and kept. Acts don't wait for it. None where
+    /// another variant is the current one by now.
     ///
     /// # Errors
-    /// The scene can't be diagnosed, or another variant is the current one by now.
-    pub fn diagnosis(&self) -> Result<Diagnosis> {
+    /// The scene can't be diagnosed.
+    pub fn diagnosis(&self) -> Result<Option<Diagnosis>> {
         self.diagnosis_by(diagnose)
     }
 
@@ -112,7 +110,7 @@ impl Studio {
     pub(super) fn diagnosis_by(
         &self,
         diagnose: impl FnOnce(&Scene, &RefinedOptions, &[EffectRequest]) -> Result<Diagnosis> + Send,
-    ) -> Result<Diagnosis> {
+    ) -> Result<Option<Diagnosis>> {
         let shown = self.shown();
         check_size(&shown.fit.scene)?;
         let variant = shown.session.tree.current;

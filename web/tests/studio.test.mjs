@@ -150,6 +150,25 @@ test('an answer that an act has overtaken shows nothing old', () =>
     assert.match(await rmse(page), WITH_DRAG);
   }));
 
+test('a diagnosis that an act has overtaken is asked for again', () =>
+  tried(async (page) => {
+    let asked = 0;
+    await page.route('**/api/diagnosis', async (route) => {
+      asked += 1;
+      // As the server answers where another variant is seen by now.
+      if (asked === 1) await route.fulfill({ json: null });
+      else await route.continue();
+    });
+    await page.getByTestId('add-quadratic_drag@ball').click();
+    await shows(page, WITH_DRAG);
+    await until(
+      () => page.getByTestId('diagnosing').count(),
+      (count) => asked > 1 && count === 0,
+      'the diagnosis',
+    );
+    assert.deepEqual((await page.getByTestId('error').allTextContents()).filter(Boolean), []);
+  }));
+
 test('the state is fetched only when there is a newer one', () =>
   tried(async (page) => {
     const asked = [];

@@ -28,7 +28,8 @@ export const api = {
   /** Refused at the place `instead_of` where the server's draft is neither of both. */
   law: (draft: string, insteadOf: string) =>
     post<CheckedLaw>('api/law', JSON.stringify({ draft, instead_of: insteadOf })),
-  diagnosis: (signal: AbortSignal) => json<Diagnosis>('api/diagnosis', { signal }),
+  /** Null where another variant is seen by now. */
+  diagnosis: (signal: AbortSignal) => json<Diagnosis | null>('api/diagnosis', { signal }),
   openSession: (text: string) => post<StudioState>('api/session', text),
   file: async (name: 'report' | 'session') => (await answer(`api/${name}`)).blob(),
 };

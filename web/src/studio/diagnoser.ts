@@ -35,7 +35,11 @@ export class Diagnoser {
     this.request = request;
     try {
       const diagnosis = await api.diagnosis(request.signal);
-      if (!request.signal.aborted) this.tell(diagnosis);
+      // The variant was left meanwhile.
+      if (diagnosis === null) await this.studio.look();
+      if (request.signal.aborted) return;
+      if (diagnosis === null) this.ask();
+      else this.tell(diagnosis);
     } catch (error) {
       if (request.signal.aborted) return;
       this.hasFailed = true;
