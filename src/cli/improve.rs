@@ -79,10 +79,9 @@ fn in_words(improvement: &Improvement, again: &[String]) -> String {
 
 fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) -> std::fmt::Result {
     writeln!(out, "{}", aligned(&table_of(&improvement.ladder)))?;
-    for rung in improvement.ladder.iter().filter(|rung| !rung.indistinguishable_from.is_empty()) {
-        let added = rung.added.as_deref().unwrap_or_default();
-        let others = rung.indistinguishable_from.join(" or ");
-        writeln!(out, "These poses can't tell {added} from {others}.\n")?;
+    let rungs: Vec<String> = improvement.ladder.iter().filter_map(Rung::in_words).collect();
+    if !rungs.is_empty() {
+        writeln!(out, "{}\n", rungs.join("\n"))?;
     }
     if !improvement.dropped.is_empty() {
         writeln!(
@@ -112,6 +111,13 @@ fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) ->
     }
     if improvement.verdict == Verdict::UnknownEffect && !improvement.together.is_empty() {
         writeln!(out, "{}", Together::OF_A_POOR_MODEL)?;
+    }
+    let telling_apart = improvement.telling_apart();
+    if !telling_apart.is_empty() {
+        writeln!(out, "\nTo tell them apart")?;
+        for line in telling_apart {
+            writeln!(out, "  {line}")?;
+        }
     }
     writeln!(out, "\nEach rung again")?;
     for command in again {

@@ -11,17 +11,9 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
     let known = known_effects(scene, fitted);
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::Missing, Some(best)) => {
-            let alike: Vec<&str> = best
-                .indistinguishable_from
-                .iter()
-                .map(|label| label.split('@').next().unwrap_or(label))
-                .collect();
-            if let Some(effect) = find(&best.effect).filter(|_| !alike.is_empty()) {
-                advice.push(effect.help.tell_apart.clone());
-            }
-            for other in alike {
-                let tell = find(other).map(|effect| effect.help.tell_apart.clone());
-                advice.extend(tell.filter(|tell| !advice.contains(tell)));
+            let alike = &best.indistinguishable_from;
+            if !alike.is_empty() {
+                advice.extend(telling_apart(std::iter::once(&best.effect).chain(alike)));
             }
             advice.push(format!(
                 "add it: smash reconstruct SCENE{known} --with {} -o result.json",
@@ -63,6 +55,17 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
 pub(super) fn known_effects(scene: &Scene, fitted: &Fitted) -> String {
     let label = |acting: &Acting| format!(" --with {}", acting.instance.label(scene));
     fitted.acting.iter().map(label).collect()
+}
+
+/// What tells each of these effects from others, said once; each is `NAME` or `NAME@BODY`.
+pub(crate) fn telling_apart<'a>(labels: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut told: Vec<String> = Vec::new();
+    for effect in labels.filter_map(|label| find(label.split('@').next()?)) {
+        if !told.contains(&effect.help.tell_apart) {
+            told.push(effect.help.tell_apart.clone());
+        }
+    }
+    told
 }
 
 fn find(name: &str) -> Option<&'static Effect> {

@@ -37,6 +37,7 @@ pub use throws::diagnose_throws;
 pub use together::{ThrowValue, Together};
 pub use unexplained::{Form, Kind, Unexplained};
 
+pub(crate) use advice::telling_apart;
 pub(crate) use best_of_throws::{alike, put_best_first, with_own};
 pub(crate) use candidates::{Candidate, all_candidates, of_a_body};
 pub(crate) use dependence::{inflation_of, quasi_bic};
@@ -44,11 +45,12 @@ pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::{HeldOut, held_out_rmse_m};
 pub(crate) use leftover::Leftover;
-pub(crate) use pooled::{Throw, pooled};
+pub(crate) use pooled::{PooledCandidate, Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
 pub(crate) use rivals::rivals;
 pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 pub(crate) use together::together;
+pub(crate) use words::{in_words, listed};
 
 use rayon::prelude::*;
 

@@ -39,10 +39,7 @@ pub(super) fn report(
         heldout_rmse_before: None,
         heldout_rmse_after: None,
         reduced_chi2: None,
-        parameters: match candidate.values.is_empty() {
-            true => BTreeMap::new(),
-            false => parameters(instance, &candidate.values, &candidate.stds),
-        },
+        parameters: candidate.parameters(),
         indistinguishable_from: alike.map(|one| one.label.clone()).collect(),
         shifts: Vec::new(),
         throws: Some(Agreement {
@@ -52,6 +49,18 @@ pub(super) fn report(
             each: each.collect(),
         }),
     })
+}
+
+impl PooledCandidate {
+    /// Those of all throws by name; empty of what is each throw's own by its nature.
+    pub(crate) fn parameters(&self) -> BTreeMap<String, ParameterEstimate> {
+        match self.own.iter().flatten().next() {
+            Some(own) if !self.values.is_empty() => {
+                parameters(&own.instance, &self.values, &self.stds)
+            }
+            _ => BTreeMap::new(),
+        }
+    }
 }
 
 fn parameters(

@@ -1,12 +1,14 @@
 //! The answer in plain words.
 
+use std::collections::BTreeMap;
+
 use super::FALSE_ALARM;
 use super::diagnosis::{Agreement, CandidateReport, Diagnosis, Verdict};
 use super::rivals::OtherLaw;
 use super::together::Together;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
-use crate::reconstruct::Number;
+use crate::reconstruct::{Number, ParameterEstimate};
 use crate::words::{counted, significant};
 
 /// What `diagnosis` says. `pair`: two effects that explain together what one doesn't.
@@ -126,7 +128,7 @@ fn nearest_of_throws(diagnosis: &Diagnosis) -> String {
     let is_told = agreement.is_none_or(|agreement| agreement.is_shared);
     let values = match best.parameters.is_empty() || !is_told {
         true => String::new(),
-        false => format!(" ({})", parameters(best)),
+        false => format!(" ({})", in_words(&best.parameters)),
     };
     format!(
         " The nearest is {}{values}: χ² falls by {} with it, but {but}.",
@@ -239,7 +241,7 @@ fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -
     let title = looks.map_or(best.effect.as_str(), |effect| effect.title.as_str());
     let mut text = format!("{} is missing: {title}", best.label());
     if !best.parameters.is_empty() {
-        text += &format!(" ({})", parameters(best));
+        text += &format!(" ({})", in_words(&best.parameters));
     }
     text += &format!(
         ". With it χ² falls by {}, for {}",
@@ -282,8 +284,8 @@ fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -
 }
 
 /// `k = 0.150 ± 0.012 1/m`, and so on.
-pub(super) fn parameters(candidate: &CandidateReport) -> String {
-    let one = |(name, estimate): (&String, &crate::reconstruct::ParameterEstimate)| {
+pub(crate) fn in_words(parameters: &BTreeMap<String, ParameterEstimate>) -> String {
+    let one = |(name, estimate): (&String, &ParameterEstimate)| {
         let shown = |number: &Number| {
             let parts: Vec<String> =
                 number.components().iter().map(|value| significant(*value, 3)).collect();
@@ -294,11 +296,11 @@ pub(super) fn parameters(candidate: &CandidateReport) -> String {
         let unit = if estimate.unit == "1" { String::new() } else { format!(" {}", estimate.unit) };
         format!("{name} = {value}{}{unit}", std.unwrap_or_default())
     };
-    candidate.parameters.iter().map(one).collect::<Vec<_>>().join(", ")
+    parameters.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// `a, b or c`.
-pub(super) fn listed(names: &[String]) -> String {
+pub(crate) fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),
         [one] => one.clone(),

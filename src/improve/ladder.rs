@@ -1,9 +1,12 @@
 //! The improvement as it stands in a file, `smash.improvement/1`.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnose::{Together, Verdict};
+use crate::diagnose::{Together, Verdict, in_words, listed, telling_apart};
+use crate::reconstruct::ParameterEstimate;
 use crate::{Reconstruction, Scene};
 
 /// The value of an improvement file's field `schema`.
@@ -41,9 +44,16 @@ pub struct Rung {
     pub with: Vec<String>,
     /// How often noise alone would seem such an effect, any of all candidates; null of the first.
     pub p_value: Option<f64>,
+    /// The parameters of that effect, with the effects up to it; later rungs may move them. Empty where
+    /// several throws have each its own.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, ParameterEstimate>,
     /// `NAME@BODY` of the effects that the poses can't tell from it, given those before.
     #[serde(default)]
     pub indistinguishable_from: Vec<String>,
+    /// The same effects, with the parameters that they have in its place.
+    #[serde(default)]
+    pub look_alikes: Vec<EffectEstimate>,
     /// Root mean square over all position coordinates, m.
     pub position_rmse: f64,
     /// Root mean square over all components of the rotation vectors, rad; null without orientations.
@@ -58,7 +68,54 @@ pub struct Rung {
     pub restitution: Option<f64>,
 }
 
+/// An effect, and how large it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EffectEstimate {
+    /// `NAME@BODY`.
+    pub effect: String,
+    /// Its parameters by name; empty where several throws have each its own.
+    pub parameters: BTreeMap<String, ParameterEstimate>,
+}
+
+impl Rung {
+    /// What it adds, how large that is, and what the poses can't tell it from; `None` of the first rung.
+    pub fn in_words(&self) -> Option<String> {
+        let added = with_values(self.added.as_ref()?, &self.parameters);
+        if self.look_alikes.is_empty() {
+            return Some(format!("{added}."));
+        }
+        let others = self.look_alikes.iter();
+        let others: Vec<String> =
+            others.map(|other| with_values(&other.effect, &other.parameters)).collect();
+        Some(format!("{added}. These poses can't tell it from {}.", listed(&others)))
+    }
+
+    /// The rung with `effect` on it, and what else may be in its place.
+    pub(super) fn adding(self, effect: EffectEstimate, look_alikes: Vec<EffectEstimate>) -> Rung {
+        Rung {
+            added: Some(effect.effect),
+            parameters: effect.parameters,
+            indistinguishable_from: look_alikes.iter().map(|one| one.effect.clone()).collect(),
+            look_alikes,
+            ..self
+        }
+    }
+}
+
+fn with_values(effect: &str, parameters: &BTreeMap<String, ParameterEstimate>) -> String {
+    match parameters.is_empty() {
+        true => format!("{effect} (each throw has its own)"),
+        false => format!("{effect} ({})", in_words(parameters)),
+    }
+}
+
 impl Improvement {
+    /// What to film or measure to tell the rungs' effects from what else may be in their place.
+    pub fn telling_apart(&self) -> Vec<String> {
+        let alike = self.ladder.iter().filter(|rung| !rung.indistinguishable_from.is_empty());
+        telling_apart(alike.flat_map(|rung| rung.added.iter().chain(&rung.indistinguishable_from)))
+    }
+
     pub(super) fn new(
         scene: &Scene,
         verdict: Verdict,

@@ -20,8 +20,8 @@ const MOST_EFFECTS: usize = 4;
 pub(super) struct Step {
     pub(super) instance: Instance,
     pub(super) p_value: f64,
-    /// Labels of what the poses can't tell from it, given the effects before.
-    pub(super) look_alikes: Vec<String>,
+    /// What the poses can't tell from it, given the effects before.
+    pub(super) look_alikes: Vec<Instance>,
 }
 
 /// The best model.
@@ -60,7 +60,7 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
             candidates.sort_by(|a, b| quasi(a, inflation).total_cmp(&quasi(b, inflation)));
             let good = (0..candidates.len()).filter(|&index| candidates[index].stands_out());
             let good = good.take(HYPOTHESES);
-            next.extend(good.map(|index| hypothesis.extended(scene, candidates, index, inflation)));
+            next.extend(good.map(|index| hypothesis.extended(candidates, index, inflation)));
         }
         next.sort_by(|a, b| a.quasi(inflation).total_cmp(&b.quasi(inflation)));
         next.dedup_by(|a, b| a.is_same_set(b, scene));
@@ -86,19 +86,13 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
 
 impl Hypothesis {
     /// With the candidate `index` more, where differences count for less by `inflation`.
-    fn extended(
-        &self,
-        scene: &Scene,
-        candidates: &[Candidate],
-        index: usize,
-        inflation: f64,
-    ) -> Hypothesis {
+    fn extended(&self, candidates: &[Candidate], index: usize, inflation: f64) -> Hypothesis {
         let candidate = &candidates[index];
         let alike = look_alikes(candidates, index, inflation).into_iter();
         let step = Step {
             instance: candidate.instance().clone(),
             p_value: candidate.evidence.p_value,
-            look_alikes: alike.map(|other| candidates[other].instance().label(scene)).collect(),
+            look_alikes: alike.map(|other| candidates[other].instance().clone()).collect(),
         };
         let steps = self.steps.iter().cloned().chain([step]).collect();
         Hypothesis {

@@ -1,10 +1,12 @@
 //! The ladder of several throws together: an effect that they share is added to all, with the values
 //! that all of them together say.
 
-use super::{Improvement, Rung};
+use std::collections::BTreeMap;
+
+use super::{EffectEstimate, Improvement, Rung};
 use crate::diagnose::{
-    Throw, Verdict, alike, held_out_rmse_m, instances, looks, pooled, put_best_first, reduced_chi2,
-    reported, throws, together, with_own,
+    PooledCandidate, Throw, Verdict, alike, held_out_rmse_m, instances, looks, pooled,
+    put_best_first, reduced_chi2, reported, throws, together, with_own,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
@@ -34,18 +36,13 @@ pub fn improve_throws(
         let is_last = added.is_apart();
         let setting = (0..throws.len()).find_map(|index| added.held(index));
         let setting = setting.map(|held| with_values(&added.label, &held));
-        let alike = alike(&candidates, added);
-        let alike = alike.map(|other| other.label.clone()).collect();
+        let look_alikes = alike(&candidates, added).map(effect).collect();
         throws = best.throws;
         own = own.and_then(|own| with_own(&own, added));
         let known = ladder.last().map(|rung: &Rung| rung.with.clone()).unwrap_or_default();
         let with: Vec<String> = known.into_iter().chain(setting).collect();
-        ladder.push(Rung {
-            added: Some(added.label.clone()),
-            p_value: Some(added.p_value),
-            indistinguishable_from: alike,
-            ..rung(&throws, with)?
-        });
+        let next = rung(&throws, with)?.adding(effect(added), look_alikes);
+        ladder.push(Rung { p_value: Some(added.p_value), ..next });
         if is_last {
             break;
         }
@@ -60,6 +57,11 @@ pub fn improve_throws(
     let together = own.map_or(Ok(Vec::new()), |own| together(&own))?;
     let scene = throws[0].scene;
     Ok(Improvement { together, ..Improvement::new(scene, verdict, ladder, Vec::new(), result) })
+}
+
+/// How large a candidate is in all throws.
+fn effect(candidate: &PooledCandidate) -> EffectEstimate {
+    EffectEstimate { effect: candidate.label.clone(), parameters: candidate.parameters() }
 }
 
 /// `NAME@BODY:k=0.03`: what `--with` takes for each throw.
@@ -99,7 +101,9 @@ fn rung(throws: &[Throw], with: Vec<String>) -> Result<Rung> {
         added: None,
         with,
         p_value: None,
+        parameters: BTreeMap::new(),
         indistinguishable_from: Vec::new(),
+        look_alikes: Vec::new(),
         position_rmse: position.unwrap_or(0.0),
         orientation_rmse: rms(results.iter().map(|r| r.fit.orientation_rmse).collect()),
         reduced_chi2: reduced_chi2(throws),

@@ -166,6 +166,14 @@ fn the_scale_of_gravity_of_a_lone_body() {
     assert_eq!(first.label(), "gravity_scale", "{}", diagnosis.explanation);
     let alike = &first.indistinguishable_from;
     assert!(alike.contains(&"depth_scale@a".to_string()), "{alike:?}");
+
+    let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
+    let rung = last(&improvement);
+    let others: Vec<&String> = rung.look_alikes.iter().map(|other| &other.effect).collect();
+    assert_eq!(others, rung.indistinguishable_from.iter().collect::<Vec<_>>());
+    assert!(others.contains(&&"depth_scale@a".to_string()), "{others:?}");
+    assert_replayed(&scene, &improvement, "gravity_scale");
+    assert!(rung.in_words().unwrap().contains("can't tell it from"), "{:?}", rung.in_words());
 }
 
 /// A push that lasts a tenth of a second does as well where it is weak; a strong one's bend would show.

@@ -13,16 +13,20 @@ mod swing;
 mod throws;
 mod unknown;
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 use smash::effect::EffectRequest;
 use smash::improve::{Improvement, Rung};
-use smash::reconstruct::{Number, RefinedOptions};
+use smash::reconstruct::{Number, ParameterEstimate, RefinedOptions};
 use smash::scene::{Camera, Noise};
 use smash::simulate::{
     EffectSpec, NoiseSpec, RegularSampling, Sampling, Simulation, SimulationSpec, simulate,
 };
 use smash::{Comparison, Options, Reconstruction, Scene, SchemaKind};
+
+type Parameters = BTreeMap<String, ParameterEstimate>;
 
 /// As a careful annotator's.
 const NOISE: Noise = Noise { position: 0.001, orientation: 0.005 };
@@ -152,13 +156,40 @@ fn assert_replayed(scene: &Scene, improvement: &Improvement, what: &str) {
             (value(rung.orientation_rmse), value(again.fit.orientation_rmse)),
             (value(rung.reduced_chi2), value(again.fit.reduced_chi2)),
             (value(rung.restitution), value(again.restitution.value)),
-            (value(rung.mass_ratio), value(again.mass_ratio.and_then(|ratio| ratio.value))),
+            (
+                value(rung.mass_ratio),
+                value(again.mass_ratio.as_ref().and_then(|ratio| ratio.value)),
+            ),
         ];
         for (told, found) in pairs {
             let off = (told - found).abs();
             assert!(off <= 1e-4 * found.abs(), "{what}: {:?} {told} {found}", rung.with);
         }
+        if !rung.parameters.is_empty() {
+            assert_same_size(&rung.parameters, &again, what);
+        }
     }
+    for (below, rung) in improvement.ladder.iter().zip(&improvement.ladder[1..]) {
+        for other in &rung.look_alikes {
+            let with = [below.with.as_slice(), std::slice::from_ref(&other.effect)].concat();
+            assert_same_size(&other.parameters, &fit(scene, &with), what);
+        }
+    }
+}
+
+/// The last effect of `found` is as large as was `told`, to a hundredth of its deviation.
+fn assert_same_size(told: &Parameters, found: &Reconstruction, what: &str) {
+    let found = &found.effects.last().unwrap().parameters;
+    let components =
+        |number: &Option<Number>| number.as_ref().map_or(Vec::new(), |n| n.components().to_vec());
+    for (name, told) in told {
+        let found = &found[name];
+        let values = components(&told.value).into_iter().zip(components(&found.value));
+        for ((told, found), std) in values.zip(components(&found.std)) {
+            assert!((told - found).abs() <= 0.01 * std, "{what}: {name} {told} {found} ± {std}");
+        }
+    }
+    assert_eq!(told.keys().collect::<Vec<_>>(), found.keys().collect::<Vec<_>>(), "{what}");
 }
 
 fn last(improvement: &Improvement) -> &Rung {

@@ -6,7 +6,7 @@ import { length, NONE, probability, pValue, significant, tuple } from '../number
 import type { Candidate, Diagnosis, Unexplained } from '../report';
 import { table } from '../table';
 import { label } from '../words';
-import { parameterInWords } from './estimates';
+import { parametersInWords } from './estimates';
 
 /** `adder` makes a button that adds an effect; a report has none. */
 export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): Child[] {
@@ -51,7 +51,7 @@ function candidates(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElemen
     pValue(candidate.p_value),
     significant(candidate.delta_chi2, 4),
     heldOut(candidate),
-    parameters(candidate),
+    parametersInWords(candidate.parameters),
     candidate.indistinguishable_from.join(', ') || NONE,
     ...(adder ? [adder(label(candidate))] : []),
   ]);
@@ -68,12 +68,6 @@ function heldOut(candidate: Candidate): string {
   return typeof before === 'number' && typeof after === 'number'
     ? `${length(before)} → ${length(after)}`
     : NONE;
-}
-
-function parameters(candidate: Candidate): string {
-  return Object.entries(candidate.parameters)
-    .map(([name, one]) => `${name} = ${parameterInWords(one)} ${one.unit}`.trim())
-    .join('; ');
 }
 
 const LEFT_OVER: Record<Unexplained['kind'], { what: string; unit: string }> = {

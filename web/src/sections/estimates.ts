@@ -2,7 +2,17 @@
 
 import { element } from '../element';
 import type { Child } from '../element';
-import { angle, decimalsFor, fixed, length, NONE, significant, tuple, withDeviation } from '../numbers';
+import {
+  angle,
+  decimalsFor,
+  fixed,
+  length,
+  NONE,
+  significant,
+  tuple,
+  withDeviation,
+  withUnit,
+} from '../numbers';
 import type { Maybe } from '../numbers';
 import type { ActiveEffect, Estimate, Model, ParameterEstimate, Report, Vector } from '../report';
 import { table } from '../table';
@@ -100,6 +110,13 @@ export function parameterInWords(parameter: ParameterEstimate): string {
   if (value === null || value === undefined) return NONE;
   if (typeof value === 'number') return withDeviation(value, typeof std === 'number' ? std : null);
   return value.map((one, i) => withDeviation(one, Array.isArray(std) ? std[i] : null)).join(', ');
+}
+
+/** `k = 0.118 ± 0.0016 1/m`, and so on. */
+export function parametersInWords(parameters: Record<string, ParameterEstimate>): string {
+  return Object.entries(parameters)
+    .map(([name, one]) => `${name} = ${withUnit(parameterInWords(one), one.unit === '1' ? '' : one.unit)}`)
+    .join('; ');
 }
 
 function bodies(model: Model, deviations: Deviations): HTMLElement {

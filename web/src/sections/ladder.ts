@@ -8,6 +8,7 @@ import { savers } from '../plots/savers';
 import { save, saveImage } from '../save';
 import { svgFile } from '../svg';
 import { table } from '../table';
+import { parametersInWords } from './estimates';
 import { ladderPlot } from './ladder_plot';
 
 const VERDICTS = {
@@ -70,7 +71,7 @@ export function ladder(improvement: Improvement): Child[] {
 
 function row(rung: Rung): Child[] {
   return [
-    rung.added ? added(rung.added, rung.indistinguishable_from ?? []) : startInWords(rung),
+    rung.added ? added(rung.added, rung) : startInWords(rung),
     pValue(rung.p_value),
     length(rung.position_rmse),
     length(rung.heldout_position_rmse),
@@ -81,10 +82,15 @@ function row(rung: Rung): Child[] {
   ];
 }
 
-function added(effect: string, lookAlikes: string[]): Child {
-  if (lookAlikes.length === 0) return `+ ${effect}`;
-  const hint = element('span', { class: 'hint' }, ` can’t be told from ${lookAlikes.join(' or ')}`);
-  return element('span', {}, `+ ${effect}`, hint);
+function added(effect: string, { parameters = {}, look_alikes: lookAlikes = [] }: Rung): Child {
+  const others = lookAlikes.map((other) => withValues(other.effect, other.parameters));
+  const hint = others.length > 0 && ` can’t be told from ${others.join(' or ')}`;
+  return element('span', {}, `+ ${withValues(effect, parameters)}`, element('span', { class: 'hint' }, hint));
+}
+
+function withValues(effect: string, parameters: Rung['parameters'] = {}): string {
+  const values = parametersInWords(parameters);
+  return values === '' ? effect : `${effect} (${values})`;
 }
 
 function startInWords(rung: Rung): string {
