@@ -20,6 +20,8 @@ pub struct Case {
     /// `None` against a static body.
     pub mass_ratio: Option<f64>,
     pub restitution: f64,
+    /// Mass ratio and restitution that another solver finds with the right effects, as far as known.
+    pub found_elsewhere: [Option<f64>; 2],
     /// Of the annotations, whether the scene states it or not.
     pub noise: Noise,
 }

@@ -263,6 +263,7 @@ fn case(name: String, simulation: &Simulation, noise: Noise, seed: u64) -> Resul
         truth.effects.iter().map(|spec| request(spec, is_known)).collect()
     };
     Ok(Case {
+        found_elsewhere: [None; 2],
         name,
         scene: Scene::from_file(noisy)?,
         effects: requests(foreign::is_measured)?,

@@ -47,6 +47,17 @@ impl Fit {
             + 2.0 * outliers as f64 * self.poses.ln()
     }
 
+    /// How far mass ratio and restitution are from those that another solver finds, in their deviations.
+    pub fn differs(&self, case: &Case) -> Vec<f64> {
+        let own = [self.result.mass_ratio.as_ref(), Some(&self.result.restitution)];
+        let pairs = own.into_iter().zip(case.found_elsewhere);
+        let differs = pairs.filter_map(|(own, other)| {
+            let (own, other) = (own?, other?);
+            Some((own.value? - other).abs() / own.std?)
+        });
+        differs.collect()
+    }
+
     /// The errors against the truth.
     pub fn errors(&self, case: &Case) -> Errors {
         let result = &self.result;

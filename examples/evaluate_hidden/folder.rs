@@ -1,4 +1,5 @@
-//! Cases from a folder: `case_*.json`, each with its `truth/case_*.json`.
+//! Cases from a folder: `case_*.json`, each with its `truth/case_*.json`, and if there is one,
+//! `oracle/case_*.json`, what another solver finds.
 
 use std::path::Path;
 
@@ -21,17 +22,35 @@ pub fn cases(folder: &Path) -> Result<Vec<Case>> {
     names.sort();
     let mut cases = Vec::new();
     for name in names {
-        cases.extend(case(&folder.join(&name), &folder.join("truth").join(&name))?);
+        let truth = folder.join("truth").join(&name);
+        let Some(mut case) = case(&folder.join(&name), &truth)? else { continue };
+        let oracle = folder.join("oracle").join(&name);
+        if oracle.exists() {
+            case.found_elsewhere = found(&oracle)?;
+        }
+        cases.push(case);
     }
     Ok(cases)
+}
+
+/// What an oracle's file says of the mass ratio and the restitution with the right effects.
+fn found(path: &Path) -> Result<[Option<f64>; 2]> {
+    let oracle = value(path)?;
+    let estimates = &oracle["estimates"]["truth_model"];
+    Ok(["mass_ratio", "restitution"].map(|name| estimates[name].as_f64()))
+}
+
+fn value(path: &Path) -> Result<Value> {
+    serde_json::from_str(&read_text(path)?).map_err(|error| {
+        Error::new(ErrorKind::Parse, error.to_string()).in_file(path.display().to_string())
+    })
 }
 
 fn case(scene_path: &Path, truth_path: &Path) -> Result<Option<Case>> {
     let wrong = |problem: &str| {
         Error::new(ErrorKind::Parse, problem).in_file(truth_path.display().to_string())
     };
-    let truth: Value =
-        serde_json::from_str(&read_text(truth_path)?).map_err(|error| wrong(&error.to_string()))?;
+    let truth = value(truth_path)?;
     let acting = truth["effects"].as_array().ok_or_else(|| wrong("`effects` isn't a list"))?;
     let labels: Vec<String> = acting.iter().flat_map(labels).collect();
     let is_known = |label: &String| {
@@ -51,6 +70,7 @@ fn case(scene_path: &Path, truth_path: &Path) -> Result<Option<Case>> {
         scene,
         effects: requests?,
         true_effects: None,
+        found_elsewhere: [None; 2],
         mass_ratio: truth["mass_ratio"].as_f64(),
         restitution: restitution.ok_or_else(|| wrong("`restitution` isn't a number"))?,
         noise,

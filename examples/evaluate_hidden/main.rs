@@ -69,7 +69,8 @@ struct Arguments {
     /// A folder that is there, to keep the scenes with something hidden in: to look at one by one
     #[arg(long, value_name = "FOLDER")]
     keep: Option<PathBuf>,
-    /// Instead, a folder of scenes case_*.json, each with its truth/case_*.json
+    /// Instead, a folder of scenes case_*.json, each with its truth/case_*.json and, if there is one,
+    /// another solver's oracle/case_*.json
     #[arg(long)]
     folder: Option<PathBuf>,
 }

@@ -8,7 +8,7 @@ use smash::Result;
 use crate::answer::Answer;
 use crate::case::Case;
 use crate::fit::{Errors, Fit};
-use crate::table::{percent, pooled, spread};
+use crate::table::{percent, pooled, quantile, spread};
 
 /// A case, what the diagnosis says of it, and what the right model does.
 pub struct Single {
@@ -21,6 +21,8 @@ pub struct Single {
     with: Errors,
     /// By how much χ² with the right effect is worse than with its parameters at the truth.
     missed: f64,
+    /// From another solver's numbers, in deviations.
+    differs: Vec<f64>,
     name: String,
     /// Where the right effect doesn't come first.
     pub failure: Option<String>,
@@ -49,6 +51,7 @@ impl Single {
             base: Fit::of(case, &[])?.errors(case),
             with: with.errors(case),
             missed,
+            differs: with.differs(case),
             name: format!("{} {}", case.labels().join(" + "), case.name),
             answer,
             failure,
@@ -113,6 +116,15 @@ pub fn tables(cases: &[Case]) -> Result<String> {
         text +=
             "\nFits with the right effect that end worse than with its parameters at the truth: ";
         text += &format!("{stuck}.\n");
+    }
+    let differs: Vec<f64> = singles.iter().flat_map(|single| single.differs.clone()).collect();
+    if !differs.is_empty() {
+        text += &format!(
+            "\nMass ratio and restitution with the right effect, against another solver's: {} deviations \
+             (median / 90 %), at most {:.4}.\n",
+            spread(differs.iter().copied()),
+            quantile(&differs, 1.0)
+        );
     }
     let failures: Vec<&str> = singles.iter().filter_map(|s| s.failure.as_deref()).collect();
     if !failures.is_empty() {
