@@ -14,49 +14,58 @@ impl Scene {
     /// # Errors
     /// The first broken rule, with its place, the value found, and a mend.
     pub fn from_file(file: SceneFile) -> Result<Scene> {
-        check_schema(&file.schema, SCENE_SCHEMA)?;
-        check_name("name", &file.name)?;
-        if let Some(fps) = file.fps {
-            check_range("fps", fps, &FPS, "give the frames per second of the recording")?;
-        }
-        check_range("gravity", file.gravity, &GRAVITY_M_S2, "give gravity in m/s², such as 9.81")?;
-        let up_in_world = unit_vector("up", file.up)?;
-        if let Some(noise) = file.noise {
-            check_noise("noise", &noise)?;
-        }
-        if let Some(camera) = &file.camera {
-            position("camera.position", camera.position)?;
-        }
-        check_bodies(&file.bodies)?;
-
-        let mut bodies = Vec::new();
-        let mut plane = None;
-        let mut warnings = Vec::new();
-        for (index, body) in file.bodies.into_iter().enumerate() {
-            let place = format!("bodies[{index}]");
-            if body.is_static == Some(true) {
-                plane = Some(static_plane(&place, body)?);
-            } else {
-                bodies.push(dynamic_body(&place, body, file.fps, &mut warnings)?);
-            }
-        }
-        gaps::check(&bodies)?;
-        let mut scene = Scene {
-            name: file.name,
-            fps: file.fps,
-            up_in_world,
-            gravity_m_s2: file.gravity,
-            noise: file.noise,
-            camera: file.camera,
-            source: file.source,
-            bodies,
-            plane,
-            warnings,
-        };
-        let odd = warn::look(&scene);
-        scene.warnings.extend(odd);
-        Ok(scene)
+        Ok(checked(file)?.looked_over(None))
     }
+
+    /// With the usual mistakes among its warnings. `collision_s`: when it is, if that is known.
+    pub(super) fn looked_over(mut self, collision_s: Option<f64>) -> Scene {
+        let odd = warn::look(&self, collision_s);
+        self.warnings.extend(odd);
+        self
+    }
+}
+
+/// By every rule.
+pub(super) fn checked(file: SceneFile) -> Result<Scene> {
+    check_schema(&file.schema, SCENE_SCHEMA)?;
+    check_name("name", &file.name)?;
+    if let Some(fps) = file.fps {
+        check_range("fps", fps, &FPS, "give the frames per second of the recording")?;
+    }
+    check_range("gravity", file.gravity, &GRAVITY_M_S2, "give gravity in m/s², such as 9.81")?;
+    let up_in_world = unit_vector("up", file.up)?;
+    if let Some(noise) = file.noise {
+        check_noise("noise", &noise)?;
+    }
+    if let Some(camera) = &file.camera {
+        position("camera.position", camera.position)?;
+    }
+    check_bodies(&file.bodies)?;
+
+    let mut bodies = Vec::new();
+    let mut plane = None;
+    let mut warnings = Vec::new();
+    for (index, body) in file.bodies.into_iter().enumerate() {
+        let place = format!("bodies[{index}]");
+        if body.is_static == Some(true) {
+            plane = Some(static_plane(&place, body)?);
+        } else {
+            bodies.push(dynamic_body(&place, body, file.fps, &mut warnings)?);
+        }
+    }
+    gaps::check(&bodies)?;
+    Ok(Scene {
+        name: file.name,
+        fps: file.fps,
+        up_in_world,
+        gravity_m_s2: file.gravity,
+        noise: file.noise,
+        camera: file.camera,
+        source: file.source,
+        bodies,
+        plane,
+        warnings,
+    })
 }
 
 fn check_bodies(bodies: &[BodyFile]) -> Result<()> {

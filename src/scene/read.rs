@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use super::check::checked;
+use super::flights::of_one_collision;
 use super::{BodyFile, ObservationFile, SCENE_SCHEMA, Scene, SceneFile, StaticPlane};
 use crate::Result;
 use crate::files::{display_name, read_text};
@@ -9,7 +11,7 @@ use crate::json::{decode, pretty};
 use crate::rigid_body::quaternion::to_wxyz;
 
 impl Scene {
-    /// Reads and checks the scene file `path` (`-` is standard input).
+    /// Reads and checks the scene file `path` (`-` is standard input), as [`Scene::parse`].
     ///
     /// # Errors
     /// The file can't be read, isn't JSON, or breaks a rule; with place, value and mend.
@@ -18,13 +20,17 @@ impl Scene {
         Scene::parse(&read_text(path)?, &display_name(path, "standard input"))
     }
 
-    /// Reads and checks a scene from `text`; `file_name` is only for messages.
+    /// Reads and checks a scene from `text`; `file_name` is only for messages. Poses that were taken while
+    /// the body touched the plane, or after it came back to it, are of no flight before or after the
+    /// collision: they are left out, with a warning.
     ///
     /// # Errors
     /// The text isn't JSON or breaks a rule; with place, value and mend.
     pub fn parse(text: &str, file_name: &str) -> Result<Scene> {
         let file = decode(text, file_name, SCENE_SCHEMA)?;
-        Scene::from_file(file).map_err(|error| error.in_file(file_name))
+        let scene = checked(file).map_err(|error| error.in_file(file_name))?;
+        let (scene, collision_s) = of_one_collision(scene);
+        Ok(scene.looked_over(collision_s))
     }
 
     /// The scene as a file: with times in s, in order, and unit vectors and quaternions.

@@ -18,14 +18,15 @@ const GAP_AT_COLLISION: f64 = 2.1;
 /// A step of so many medians is long in any sampling.
 const LONG_STEP: f64 = 4.0;
 
-/// Looks for the usual mistakes; empty on a scene in good order.
-pub(super) fn look(scene: &Scene) -> Vec<Warning> {
+/// Looks for the usual mistakes; empty on a scene in good order. `collision_s`: when it is, if that is
+/// known.
+pub(super) fn look(scene: &Scene, collision_s: Option<f64>) -> Vec<Warning> {
     let mut warnings = Vec::new();
     warnings.extend(few_poses(scene));
     for body in scene.bodies() {
         warnings.extend(unseen_spin(scene, body));
         warnings.extend(large_turns(body));
-        warnings.extend(uneven_steps(scene, body));
+        warnings.extend(uneven_steps(scene, body, collision_s));
     }
     warnings.extend(units::look(scene));
     warnings
@@ -114,13 +115,15 @@ fn turns(body: &DynamicBody) -> Vec<Turn> {
 /// Sampling that is regular but for some steps, or a step much longer than the others. One
 /// longer step is as it should be: the collision may hide a few frames, and as many as it likes where
 /// it can be nowhere else.
-fn uneven_steps(scene: &Scene, body: &DynamicBody) -> Option<Warning> {
+fn uneven_steps(scene: &Scene, body: &DynamicBody, collision_s: Option<f64>) -> Option<Warning> {
     let times: Vec<f64> = body.observations.iter().map(|seen| seen.time_s).collect();
-    let gaps = scene.gaps();
-    let collides_in = |step: &[f64]| match gaps.as_slice() {
-        [only] => (step[0]..step[1]).contains(&only.midpoint_s()),
-        _ => false,
+    let only_gap = match scene.gaps().as_slice() {
+        [only] => Some(only.midpoint_s()),
+        _ => None,
     };
+    let collision_s = collision_s.or(only_gap);
+    let collides_in =
+        |step: &[f64]| collision_s.is_some_and(|time_s| (step[0]..step[1]).contains(&time_s));
     let between: Vec<&[f64]> = times.windows(2).filter(|step| !collides_in(step)).collect();
     let steps: Vec<f64> = between.iter().map(|step| step[1] - step[0]).collect();
     let mut sorted = steps.clone();

@@ -26,6 +26,7 @@ mod reconstruct_command;
 mod refined;
 mod report;
 mod residual_structure;
+mod scene_flights;
 mod scene_rules;
 mod scene_warnings;
 mod scenes;
