@@ -68,6 +68,20 @@ pub(crate) fn limit(value: f64) -> String {
     if is_short { value.to_string() } else { format!("{value:e}") }
 }
 
+/// `value` to the last digit that its deviation tells, and the deviation, to two digits.
+pub(crate) fn with_std(value: f64, std: f64) -> [String; 2] {
+    let told = significant(std, 2);
+    let magnitude = |x: f64| if x == 0.0 { 0.0 } else { x.abs().log10().floor() };
+    let value = match told.split_once('.') {
+        Some((_, decimals)) if !told.contains('e') => format!("{value:.*}", decimals.len()),
+        None if !told.contains('e') => format!("{value:.0}"),
+        _ => {
+            significant(value, (magnitude(value) - magnitude(std) + 2.0).clamp(3.0, 17.0) as usize)
+        }
+    };
+    [value, told]
+}
+
 /// `value` to so many significant digits, in powers of ten where it is very small or large.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {

@@ -9,6 +9,7 @@ use smash::files::{Output, print_bytes};
 use smash::{Result, diagnose, diagnose_throws};
 
 use super::method::Method;
+use super::progress::ProgressLine;
 use super::table::{aligned, decimals, p_value, probability};
 use super::throws::{further, read_all};
 use super::typed::Typed;
@@ -45,11 +46,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scenes = read_all(&arguments.scenes)?;
     let options = arguments.method.refined()?;
     let further = further(&arguments.further, &options)?;
+    let progress = ProgressLine::of_work("trying all effects that there are");
     let mut diagnosis = match scenes.as_slice() {
         [scene] => diagnose(scene, &options, &further)
             .map_err(|error| error.in_file(arguments.scenes[0].display().to_string()))?,
         throws => diagnose_throws(throws, &options, &further)?,
     };
+    progress.clear();
     let typed = Typed::new(&arguments.scenes, &options, &further);
     diagnosis.advice = typed.advice(&diagnosis.advice);
     let json = diagnosis.to_json();

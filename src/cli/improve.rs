@@ -10,6 +10,7 @@ use smash::improve::{Improvement, Rung};
 use smash::{Result, improve, improve_throws};
 
 use super::method::Method;
+use super::progress::ProgressLine;
 use super::table::{aligned, degrees, millimetres, p_value};
 use super::throws::{further, read_all};
 use super::typed::Typed;
@@ -42,11 +43,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scenes = read_all(&arguments.scenes)?;
     let options = arguments.method.refined()?;
     let further = further(&arguments.further, &options)?;
+    let progress = ProgressLine::of_work("adding effect after effect, each of all that there are");
     let improvement = match scenes.as_slice() {
         [scene] => improve(scene, &options, &further)
             .map_err(|error| error.in_file(arguments.scenes[0].display().to_string()))?,
         throws => improve_throws(throws, &options, &further)?,
     };
+    progress.clear();
     let json = improvement.to_json();
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
@@ -57,7 +60,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         _ if arguments.json => print_bytes(json.as_bytes()),
         _ => {
             let typed = Typed::new(&arguments.scenes, &options, &further);
-            print_bytes(in_words(&improvement, &commands(&improvement, &typed)).as_bytes())
+            let (next, again) = (next(&improvement, &typed), commands(&improvement, &typed));
+            print_bytes(in_words(&improvement, &next, &again).as_bytes())
         }
     }
 }
@@ -69,19 +73,50 @@ fn commands(improvement: &Improvement, typed: &Typed) -> Vec<String> {
     [typed.writing(&rungs), rungs].concat()
 }
 
-/// `again`: the commands that make the rungs.
-fn in_words(improvement: &Improvement, again: &[String]) -> String {
+/// What to film, and what to type next.
+fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
+    let mut next: Vec<String> = improvement.telling_apart();
+    if !improvement.other_laws.is_empty() {
+        next.push(
+            "write that law into a file (start from one of examples/effects), and try it: smash \
+             improve SCENE --try ./law.toml"
+                .to_string(),
+        );
+    }
+    if improvement.verdict == Verdict::UnknownEffect {
+        let with = improvement.ladder.last().map_or(&[][..], |rung| &rung.with);
+        let with: String = with.iter().map(|label| format!(" --with {label}")).collect();
+        let scenes = if typed.has_several_scenes() { "SCENE SCENE …" } else { "SCENE" };
+        next.push(format!("see what is left: smash diagnose {scenes}{with}"));
+    }
+    typed.advice(&next)
+}
+
+/// `next`: what to do then; `again`: the commands that make the rungs.
+fn in_words(improvement: &Improvement, next: &[String], again: &[String]) -> String {
     let mut text = String::new();
     // Writing to a string can't fail.
-    let _ = write_words(&mut text, improvement, again);
+    let _ = write_words(&mut text, improvement, next, again);
     text
 }
 
-fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) -> std::fmt::Result {
+fn write_words(
+    out: &mut String,
+    improvement: &Improvement,
+    next: &[String],
+    again: &[String],
+) -> std::fmt::Result {
     writeln!(out, "{}", aligned(&table_of(&improvement.ladder)))?;
     let rungs: Vec<String> = improvement.ladder.iter().filter_map(Rung::in_words).collect();
     if !rungs.is_empty() {
         writeln!(out, "{}\n", rungs.join("\n"))?;
+    }
+    if let Some(law) = improvement.other_laws.first() {
+        let does = match improvement.ladder.len() {
+            ..=2 => "does as well",
+            _ => "does as well or nearly so, and may be what these effects imitate together",
+        };
+        writeln!(out, "A law alone that the catalogue hasn't got {does}: {}.\n", law.in_words())?;
     }
     if !improvement.dropped.is_empty() {
         writeln!(
@@ -102,8 +137,7 @@ fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) ->
         }
         Verdict::UnknownEffect => writeln!(
             out,
-            "Something is left that no effect explains: smash diagnose says more, and --try takes a \
-             law of your own."
+            "Something is left that no effect explains; --try takes a law of your own."
         )?,
     }
     for one in &improvement.together {
@@ -112,12 +146,11 @@ fn write_words(out: &mut String, improvement: &Improvement, again: &[String]) ->
     if improvement.verdict == Verdict::UnknownEffect && !improvement.together.is_empty() {
         writeln!(out, "{}", Together::OF_A_POOR_MODEL)?;
     }
-    let telling_apart = improvement.telling_apart();
-    if !telling_apart.is_empty() {
-        writeln!(out, "\nTo tell them apart")?;
-        for line in telling_apart {
-            writeln!(out, "  {line}")?;
-        }
+    if !next.is_empty() {
+        writeln!(out, "\nNext")?;
+    }
+    for line in next {
+        writeln!(out, "  {line}")?;
     }
     writeln!(out, "\nEach rung again")?;
     for command in again {

@@ -15,6 +15,14 @@ impl ProgressLine {
         ProgressLine::with_template("{wide_bar} {msg}")
     }
 
+    /// A line that says what is done, and for how long by now.
+    pub fn of_work(what: &'static str) -> Self {
+        let line = ProgressLine::with_template("{spinner} {msg}, {elapsed}");
+        line.0.set_message(what);
+        line.0.enable_steady_tick(Duration::from_millis(250));
+        line
+    }
+
     /// The same, for many scenes and with the time left.
     pub fn of_batch() -> Self {
         let line = ProgressLine::with_template("{wide_bar} {pos} of {len} scenes, {eta} left");

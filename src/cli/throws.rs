@@ -86,10 +86,19 @@ pub fn further(texts: &[String], options: &RefinedOptions) -> Result<Vec<EffectR
             return Err(Error::new(ErrorKind::Invalid, problem)
                 .mend("give one of them another name: answers tell laws by it"));
         }
-        let is_tried_anyway = request.fixed.is_empty() && catalogue().contains(&request.effect);
+        let is_tried_anyway = catalogue().contains(&request.effect);
         if is_tried_anyway || further.iter().any(|other| overlaps(other, &request)) {
             let problem = format!("`--try {text}` is a candidate already");
-            return Err(Error::new(ErrorKind::Invalid, problem).mend("leave it out"));
+            return Err(Error::new(ErrorKind::Invalid, problem).mend(
+                "leave it out; what you know to be there, with its values, goes with `--with`",
+            ));
+        }
+        if request.effect.parameters.iter().all(|one| request.fixed.contains_key(&one.name)) {
+            let problem =
+                format!("`--try {text}` leaves nothing to be found: all values are given");
+            return Err(Error::new(ErrorKind::Invalid, problem).mend(
+                "leave one open, or add it: smash reconstruct SCENE --with tells how well it does",
+            ));
         }
         further.push(request);
     }

@@ -36,6 +36,11 @@ impl Typed {
         Typed::new(&[scene.to_path_buf()], &RefinedOptions::default(), &[])
     }
 
+    /// Whether it took several scenes.
+    pub fn has_several_scenes(&self) -> bool {
+        self.scenes.len() > 1
+    }
+
     /// Lines of advice, completed; before them what keeps a law that no file holds and that they need.
     pub fn advice(&self, lines: &[String]) -> Vec<String> {
         let lines: Vec<String> = lines.iter().map(|line| self.completed(line)).collect();

@@ -3,7 +3,7 @@
 use super::diagnosis::{Diagnosis, Verdict};
 use crate::Scene;
 use crate::effect::{Effect, catalogue};
-use crate::reconstruct::refined::{Acting, Fitted};
+use crate::reconstruct::refined::{Acting, Fitted, Instance};
 
 /// The advice that goes with a diagnosis; in its commands SCENE is the scene's file.
 pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> Vec<String> {
@@ -22,16 +22,14 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
             advice.push(format!("look for more: smash improve SCENE{known}"));
         }
         (Verdict::UnknownEffect, _) => {
-            advice.push(
-                "look where the model fails: smash reconstruct SCENE -o result.json, then smash compare \
-                 SCENE result.json --svg plots"
-                    .to_string(),
-            );
-            advice.push(
-                "write the law that you suspect into a file (start from smash effects show \
-                 quadratic_drag) and try it: smash diagnose SCENE --try ./law.toml"
-                    .to_string(),
-            );
+            advice.push(format!(
+                "look where the model fails: smash reconstruct SCENE{known} -o result.json, then smash \
+                 compare SCENE result.json --svg plots"
+            ));
+            advice.push(format!(
+                "write the law that you suspect into a file (start from one of examples/effects) and try \
+                 it: smash diagnose SCENE{known} --try ./law.toml"
+            ));
         }
         _ => {
             if diagnosis.reduced_chi2.is_none() {
@@ -51,6 +49,15 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
     advice
 }
 
+/// What to do about a user's law that couldn't be fitted, or that nothing depends on.
+pub(super) fn unfitted(scene: &Scene, fitted: &Fitted, law: &Instance) -> String {
+    let (known, label) = (known_effects(scene, fitted), law.label(scene));
+    format!(
+        "{label} couldn't be fitted, or changes nothing here; this says why: smash reconstruct \
+         SCENE{known} --with {label}"
+    )
+}
+
 /// What a command takes for the effects that the model has.
 pub(super) fn known_effects(scene: &Scene, fitted: &Fitted) -> String {
     let label = |acting: &Acting| format!(" --with {}", acting.instance.label(scene));
@@ -59,13 +66,16 @@ pub(super) fn known_effects(scene: &Scene, fitted: &Fitted) -> String {
 
 /// What tells each of these effects from others, said once; each is `NAME` or `NAME@BODY`.
 pub(crate) fn telling_apart<'a>(labels: impl Iterator<Item = &'a String>) -> Vec<String> {
-    let mut told: Vec<String> = Vec::new();
-    for effect in labels.filter_map(|label| find(label.split('@').next()?)) {
-        if !told.contains(&effect.help.tell_apart) {
-            told.push(effect.help.tell_apart.clone());
+    let effects = labels.filter_map(|label| find(label.split('@').next()?));
+    let mut told: Vec<(Vec<&str>, &str)> = Vec::new();
+    for Effect { name, help, .. } in effects {
+        match told.iter_mut().find(|(_, text)| *text == help.tell_apart) {
+            Some((names, _)) if names.contains(&name.as_str()) => {}
+            Some((names, _)) => names.push(name),
+            None => told.push((vec![name], &help.tell_apart)),
         }
     }
-    told
+    told.iter().map(|(names, text)| format!("{}: {text}", names.join(", "))).collect()
 }
 
 fn find(name: &str) -> Option<&'static Effect> {

@@ -57,7 +57,10 @@ fn dispersion(throw: &Throw) -> Result<f64> {
 }
 
 /// The throws with an effect more, with what all of them say of it.
-fn with_effect<'a>(throws: &[Throw<'a>], effect: &PooledCandidate) -> Result<Vec<Throw<'a>>> {
+pub(crate) fn with_effect<'a>(
+    throws: &[Throw<'a>],
+    effect: &PooledCandidate,
+) -> Result<Vec<Throw<'a>>> {
     let with = |(index, throw): (usize, &Throw<'a>)| {
         let fitted = match effect.held(index) {
             Some(held) => throw.fitted.with(throw.scene, &held)?,

@@ -99,9 +99,15 @@ pub(super) fn promising(
             || scores[*index] > WORTH * best.max(0.0)
             // What is strong at the contact bends the model without it too far for slopes to tell.
             || instances[*index].effect.scope == Scope::Contact
+            || is_own(&instances[*index])
     };
     let kept = order.iter().enumerate().filter(|(rank, index)| is_worth_it((*rank, index)));
     Ok(kept.map(|(_, index)| instances[*index].clone()).collect())
+}
+
+/// Whether it is a user's own law: who asks for it gets an answer.
+pub(super) fn is_own(instance: &Instance) -> bool {
+    !catalogue().contains(&instance.effect)
 }
 
 /// What the criterion of a body's effect is worse by than that of the scene's: next to nothing, so that
@@ -113,7 +119,7 @@ pub(crate) fn of_a_body(instance: &Instance) -> f64 {
 
 /// What speaks for `with`, which has one effect more than `without`; `None` where the data don't
 /// depend on the effect. `tried`: how many candidates there are.
-pub(super) fn candidate(
+pub(crate) fn candidate(
     scene: &Scene,
     without: &Fitted,
     with: Fitted,

@@ -38,8 +38,8 @@ pub use together::{ThrowValue, Together};
 pub use unexplained::{Form, Kind, Unexplained};
 
 pub(crate) use advice::telling_apart;
-pub(crate) use best_of_throws::{alike, put_best_first, with_own};
-pub(crate) use candidates::{Candidate, all_candidates, of_a_body};
+pub(crate) use best_of_throws::{alike, put_best_first, with_effect, with_own};
+pub(crate) use candidates::{Candidate, all_candidates, candidate, of_a_body};
 pub(crate) use dependence::{inflation_of, quasi_bic};
 pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;

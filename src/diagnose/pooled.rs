@@ -121,7 +121,10 @@ impl PooledCandidate {
                 continue;
             }
             let (own, others) = rest.split_at(parameter.null.len());
-            instance.fixed.insert(parameter.name.clone(), own.to_vec());
+            // Beyond its bounds by errors or by rounding it can't be given.
+            let [low, high] = parameter.bounds;
+            let own = own.iter().map(|value| value.clamp(low, high)).collect();
+            instance.fixed.insert(parameter.name.clone(), own);
             rest = others;
         }
         Some(instance)

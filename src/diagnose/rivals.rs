@@ -39,7 +39,7 @@ pub struct OtherLaw {
 
 impl OtherLaw {
     /// Whether a user's candidate is it, to the letter.
-    pub(super) fn is_the_law_of(&self, tried: &Instance) -> bool {
+    pub(crate) fn is_the_law_of(&self, tried: &Instance) -> bool {
         let mut laws = tried.effect.sources.iter();
         laws.any(|(hook, law)| format!("{hook} = \"{law}\"") == self.law)
     }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::advice::known_effects;
 use super::best_of_throws::{Best, put_best_first, with_own};
+use super::candidates::is_own;
 use super::diagnosis::{DIAGNOSIS_SCHEMA, Diagnosis, Verdict};
 use super::pooled::{PooledCandidate, Throw, pooled};
 use super::throws_told::{advice, report};
@@ -60,10 +61,16 @@ pub fn diagnose_throws(
     order.sort_by(|&a, &b| bics[a].total_cmp(&bics[b]));
     order.sort_by_key(|&index| (best.is_none() || index > 0, !candidates[index].stands_out()));
     let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
+    let is_own_law = |candidate: &PooledCandidate| {
+        candidate.own.iter().flatten().next().is_some_and(|own| is_own(&own.instance))
+    };
+    let is_told = |(rank, index): &(usize, usize)| *rank < told || is_own_law(&candidates[*index]);
     let reports = order
         .iter()
-        .take(told)
-        .filter_map(|&index| report(&throws, &candidates, index, weight(bics[index]) / total))
+        .copied()
+        .enumerate()
+        .filter(is_told)
+        .filter_map(|(_, index)| report(&throws, &candidates, index, weight(bics[index]) / total))
         .collect();
     let names: Vec<String> = scenes.iter().map(|scene| scene.name().to_string()).collect();
     let mut diagnosis = Diagnosis {

@@ -1,6 +1,7 @@
 //! From the evidence to an answer.
 
-use super::advice::advice;
+use super::advice::{advice, unfitted};
+use super::candidates::is_own;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 use super::leftover::Leftover;
 use super::ranking::{TELLS_APART, first, look_alikes, probabilities, rank};
@@ -82,10 +83,14 @@ pub(super) fn diagnosis(
     order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]));
     order.sort_by_key(|&index| !candidates[index].stands_out());
     let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
+    let is_told =
+        |(rank, index): &(usize, usize)| *rank < told || is_own(candidates[*index].instance());
     let reports = order
         .iter()
-        .take(told)
-        .map(|&index| report(scene, &result, &candidates, index, (odds[index], inflation)))
+        .copied()
+        .enumerate()
+        .filter(is_told)
+        .map(|(_, index)| report(scene, &result, &candidates, index, (odds[index], inflation)))
         .collect::<Result<Vec<_>>>()?;
     let mut diagnosis = Diagnosis {
         schema: DIAGNOSIS_SCHEMA.to_string(),
@@ -106,6 +111,13 @@ pub(super) fn diagnosis(
     let pair = second.as_ref().map(|(_, labels)| labels.as_str());
     diagnosis.explanation = explanation(&diagnosis, pair);
     diagnosis.advice = advice(scene, fitted, &diagnosis);
+    let has_answer = |instance: &&Instance| {
+        candidates
+            .iter()
+            .any(|candidate| candidate.instance().label(scene) == instance.label(scene))
+    };
+    let unanswered = instances.iter().filter(|one| is_own(one) && !has_answer(one));
+    diagnosis.advice.extend(unanswered.map(|one| unfitted(scene, fitted, one)));
     Ok(diagnosis)
 }
 

@@ -9,7 +9,7 @@ use super::together::Together;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
 use crate::reconstruct::{Number, ParameterEstimate};
-use crate::words::{counted, significant};
+use crate::words::{counted, significant, with_std};
 
 /// What `diagnosis` says. `pair`: two effects that explain together what one doesn't.
 pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
@@ -176,7 +176,7 @@ fn unknown(model: &str, best: Option<&CandidateReport>, law: Option<&OtherLaw>) 
             best.label(),
             significant(best.delta_chi2, 3),
             significant(law.delta_chi2, 3),
-            other(law)
+            law.in_words()
         ),
         (Some(best), None) => format!(
             " The best candidate, {}, helps (χ² falls by {}), but leaves too much: don't take it for \
@@ -189,15 +189,20 @@ fn unknown(model: &str, best: Option<&CandidateReport>, law: Option<&OtherLaw>) 
     format!("{model} misses the poses by more than their noise.{tried}")
 }
 
-/// A law that the catalogue hasn't got, with the line to try.
-fn other(law: &OtherLaw) -> String {
-    let body = law.body.as_ref().map_or("all bodies".to_string(), String::clone);
-    format!("on {body}, one that goes with {}; try {}", law.goes_with, law.law)
+impl OtherLaw {
+    /// What it is, with the line to try.
+    pub fn in_words(&self) -> String {
+        let body = self.body.as_ref().map_or("all bodies".to_string(), String::clone);
+        format!("on {body}, one that goes with {}; try {}", self.goes_with, self.law)
+    }
 }
 
 /// What is as good as what is named.
 fn or_another(law: &OtherLaw) -> String {
-    format!(" These poses can't tell it from a law that the catalogue hasn't got: {}.", other(law))
+    format!(
+        " These poses can't tell it from a law that the catalogue hasn't got: {}.",
+        law.in_words()
+    )
 }
 
 /// What is left over, in a sentence.
@@ -286,15 +291,24 @@ fn missing(best: &CandidateReport, pair: Option<&str>, stays_structured: bool) -
 /// `k = 0.150 ± 0.012 1/m`, and so on.
 pub(crate) fn in_words(parameters: &BTreeMap<String, ParameterEstimate>) -> String {
     let one = |(name, estimate): (&String, &ParameterEstimate)| {
-        let shown = |number: &Number| {
-            let parts: Vec<String> =
-                number.components().iter().map(|value| significant(*value, 3)).collect();
-            if parts.len() == 1 { parts[0].clone() } else { format!("[{}]", parts.join(", ")) }
+        let joined = |parts: Vec<String>| match parts.as_slice() {
+            [one] => one.clone(),
+            all => format!("[{}]", all.join(", ")),
         };
-        let value = estimate.value.as_ref().map_or("unknown".to_string(), shown);
-        let std = estimate.std.as_ref().map(|std| format!(" ± {}", shown(std)));
+        let number = match (&estimate.value, &estimate.std) {
+            (None, _) => "unknown".to_string(),
+            (Some(value), None) => {
+                joined(value.components().iter().map(|value| significant(*value, 3)).collect())
+            }
+            (Some(value), Some(std)) => {
+                let pairs = value.components().iter().zip(std.components());
+                let (values, stds): (Vec<String>, Vec<String>) =
+                    pairs.map(|(value, std)| with_std(*value, *std).into()).unzip();
+                format!("{} ± {}", joined(values), joined(stds))
+            }
+        };
         let unit = if estimate.unit == "1" { String::new() } else { format!(" {}", estimate.unit) };
-        format!("{name} = {value}{}{unit}", std.unwrap_or_default())
+        format!("{name} = {number}{unit}")
     };
     parameters.iter().map(one).collect::<Vec<_>>().join(", ")
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnose::{Together, Verdict, in_words, listed, telling_apart};
+use crate::diagnose::{OtherLaw, Together, Verdict, in_words, listed, telling_apart};
 use crate::reconstruct::ParameterEstimate;
 use crate::{Reconstruction, Scene};
 
@@ -30,6 +30,10 @@ pub struct Improvement {
     pub verdict: Verdict,
     /// That of the last rung; of several throws the first one's.
     pub result: Reconstruction,
+    /// Laws of simple forms that the catalogue hasn't got, each of which alone does as well as all effects
+    /// of the ladder, or explains 95 % of what they do and more than any single one; the best first.
+    #[serde(default)]
+    pub other_laws: Vec<OtherLaw>,
     /// Of several throws: their restitution and mass ratio on the last rung, put together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
@@ -44,11 +48,14 @@ pub struct Rung {
     pub with: Vec<String>,
     /// How often noise alone would seem such an effect, any of all candidates; null of the first.
     pub p_value: Option<f64>,
-    /// The parameters of that effect, with the effects up to it; later rungs may move them. Empty where
-    /// several throws have each its own.
+    /// The parameters of that effect in the model of the last rung. Of several throws their deviations are
+    /// with the other effects held; empty where each throw has its own.
     #[serde(default)]
     pub parameters: BTreeMap<String, ParameterEstimate>,
-    /// `NAME@BODY` of the effects that the poses can't tell from it, given those before.
+    /// Whether several throws have the same parameters of that effect; else each has its own.
+    #[serde(default = "yes")]
+    pub is_shared: bool,
+    /// `NAME@BODY` of the effects that the poses can't tell from it, with all others of the ladder.
     #[serde(default)]
     pub indistinguishable_from: Vec<String>,
     /// The same effects, with the parameters that they have in its place.
@@ -68,6 +75,10 @@ pub struct Rung {
     pub restitution: Option<f64>,
 }
 
+fn yes() -> bool {
+    true
+}
+
 /// An effect, and how large it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EffectEstimate {
@@ -80,14 +91,20 @@ pub struct EffectEstimate {
 impl Rung {
     /// What it adds, how large that is, and what the poses can't tell it from; `None` of the first rung.
     pub fn in_words(&self) -> Option<String> {
-        let added = with_values(self.added.as_ref()?, &self.parameters);
-        if self.look_alikes.is_empty() {
-            return Some(format!("{added}."));
-        }
-        let others = self.look_alikes.iter();
-        let others: Vec<String> =
-            others.map(|other| with_values(&other.effect, &other.parameters)).collect();
-        Some(format!("{added}. These poses can't tell it from {}.", listed(&others)))
+        let added = match self.is_shared {
+            true => with_values(self.added.as_ref()?, Some(&self.parameters)),
+            false => format!("{} (each throw has its own)", self.added.as_ref()?),
+        };
+        // Older ladders have names alone.
+        let sizes = |name: &String| {
+            let known = self.look_alikes.iter().find(|other| other.effect == *name);
+            with_values(name, known.map(|other| &other.parameters))
+        };
+        let others: Vec<String> = self.indistinguishable_from.iter().map(sizes).collect();
+        Some(match others.as_slice() {
+            [] => format!("{added}."),
+            others => format!("{added}. These poses can't tell it from {}.", listed(others)),
+        })
     }
 
     /// The rung with `effect` on it, and what else may be in its place.
@@ -102,10 +119,13 @@ impl Rung {
     }
 }
 
-fn with_values(effect: &str, parameters: &BTreeMap<String, ParameterEstimate>) -> String {
-    match parameters.is_empty() {
-        true => format!("{effect} (each throw has its own)"),
-        false => format!("{effect} ({})", in_words(parameters)),
+/// `NAME@BODY (k = 0.15 ± 0.01 1/m)`.
+fn with_values(effect: &str, parameters: Option<&BTreeMap<String, ParameterEstimate>>) -> String {
+    match parameters {
+        Some(parameters) if !parameters.is_empty() => {
+            format!("{effect} ({})", in_words(parameters))
+        }
+        _ => effect.to_string(),
     }
 }
 
@@ -130,6 +150,7 @@ impl Improvement {
             dropped,
             verdict,
             result,
+            other_laws: Vec::new(),
             together: Vec::new(),
         }
     }

@@ -1,5 +1,6 @@
 //! The ladder: fit, diagnose, add the missing effect, and again, until nothing significant is missing.
 
+mod alike;
 mod ladder;
 mod search;
 mod throws;
@@ -12,7 +13,7 @@ use std::collections::BTreeMap;
 use crate::diagnose::{Verdict, held_out_rmse_m, reported};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
-use crate::reconstruct::refined::{self, Fitted, Instance};
+use crate::reconstruct::refined::{self, Fitted};
 use crate::{Reconstruction, Result, Scene};
 
 /// Improves the model of `scene`, that of `options`, effect by effect. `further`: candidates beyond
@@ -38,37 +39,36 @@ pub fn improve(
 ) -> Result<Improvement> {
     let base = refined::fit(scene, options)?;
     let found = search::best_model(scene, &base, further)?;
-    let mut rungs = vec![rung(&base, &reported(scene, &base)?)];
-    let mut fitted = base;
+    let mut fits = vec![base];
     for step in &found.steps {
-        let look_alikes = step.look_alikes.iter().map(|other| {
-            let result = reported(scene, &fitted.with(scene, other)?)?;
-            Ok(last_effect(scene, other, &result))
-        });
-        let look_alikes = look_alikes.collect::<Result<_>>()?;
-        fitted = fitted.with(scene, &step.instance)?;
-        let result = reported(scene, &fitted)?;
-        let added = last_effect(scene, &step.instance, &result);
-        let next = rung(&fitted, &result).adding(added, look_alikes);
-        rungs.push(Rung { p_value: Some(step.p_value), ..next });
+        fits.push(fits[fits.len() - 1].with(scene, &step.instance)?);
     }
+    let results: Vec<Reconstruction> =
+        fits.iter().map(|fitted| reported(scene, fitted)).collect::<Result<_>>()?;
+    let [.., result] = results.as_slice() else { unreachable!("there is a base") };
     let with: Vec<String> = found.steps.iter().map(|step| step.instance.label(scene)).collect();
-    for (index, rung) in rungs.iter_mut().enumerate() {
+    let mut rungs = Vec::new();
+    for (index, (fitted, own)) in fits.iter().zip(&results).enumerate() {
+        let mut rung = rung(fitted, own);
         rung.with = with[..index].to_vec();
+        if let Some(step) = index.checked_sub(1) {
+            let effect = &result.effects[fits[0].acting.len() + step];
+            let added = EffectEstimate {
+                effect: with[step].clone(),
+                parameters: effect.parameters.clone(),
+            };
+            rung = rung.adding(added, alike::alike(scene, &fits[0], &found.steps, step)?);
+            rung.p_value = Some(found.steps[step].p_value);
+        }
+        rungs.push(rung);
     }
     let verdict = match (found.is_structured, found.steps.is_empty()) {
         (true, _) => Verdict::UnknownEffect,
         (false, true) => Verdict::NothingMissing,
         (false, false) => Verdict::Missing,
     };
-    let result = reported(scene, &fitted)?;
-    Ok(Improvement::new(scene, verdict, rungs, found.dropped, result))
-}
-
-/// How large `instance` is, which is the last effect of `result`.
-fn last_effect(scene: &Scene, instance: &Instance, result: &Reconstruction) -> EffectEstimate {
-    let parameters = result.effects.last().map(|effect| effect.parameters.clone());
-    EffectEstimate { effect: instance.label(scene), parameters: parameters.unwrap_or_default() }
+    let improvement = Improvement::new(scene, verdict, rungs, found.dropped, result.clone());
+    Ok(Improvement { other_laws: found.other_laws, ..improvement })
 }
 
 /// A rung of the ladder that adds nothing yet.
@@ -78,6 +78,7 @@ fn rung(fitted: &Fitted, result: &Reconstruction) -> Rung {
         with: Vec::new(),
         p_value: None,
         parameters: BTreeMap::new(),
+        is_shared: true,
         indistinguishable_from: Vec::new(),
         look_alikes: Vec::new(),
         position_rmse: result.fit.position_rmse,

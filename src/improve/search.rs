@@ -3,7 +3,7 @@
 //! superfluous is dropped at the end.
 
 use crate::diagnose::{
-    Candidate, FALSE_ALARM, Goodness, Leftover, TELLS_APART, all_candidates, evidence,
+    Candidate, FALSE_ALARM, Goodness, Leftover, OtherLaw, TELLS_APART, all_candidates, evidence,
     inflation_of, look_alikes, of_a_body, quasi, quasi_bic, rivals, tried,
 };
 use crate::effect::EffectRequest;
@@ -12,6 +12,8 @@ use crate::{Result, Scene};
 
 /// Hypotheses that climb side by side.
 const HYPOTHESES: usize = 3;
+/// A law that explains so much of what several effects do may be what they imitate together.
+const NEARLY_ALL: f64 = 0.95;
 /// Effects that a scene of a few hundred numbers can tell.
 const MOST_EFFECTS: usize = 4;
 
@@ -31,6 +33,9 @@ pub(super) struct Found {
     pub(super) dropped: Vec<String>,
     /// Whether it leaves more than noise.
     pub(super) is_structured: bool,
+    /// Laws that the catalogue hasn't got, each of which alone does as well as all steps, or nearly so and
+    /// better than any single effect.
+    pub(super) other_laws: Vec<OtherLaw>,
 }
 
 /// A set of effects on the way up.
@@ -48,6 +53,8 @@ struct Hypothesis {
 pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]) -> Result<Found> {
     let mut best = Hypothesis { fitted: base.clone(), steps: Vec::new(), gain: 0.0, bic: 0.0 };
     let mut climbing = vec![best.clone()];
+    // Of the best single effect.
+    let mut single_bic = 0.0;
     for _ in 0..MOST_EFFECTS {
         let mut ahead = Vec::new();
         for hypothesis in &climbing {
@@ -63,11 +70,20 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
             next.extend(good.map(|index| hypothesis.extended(candidates, index, inflation)));
         }
         next.sort_by(|a, b| a.quasi(inflation).total_cmp(&b.quasi(inflation)));
-        next.dedup_by(|a, b| a.is_same_set(b, scene));
+        let mut sets = Vec::new();
+        next.retain(|one| {
+            let set = one.set(scene);
+            let is_new = !sets.contains(&set);
+            sets.push(set);
+            is_new
+        });
         next.truncate(HYPOTHESES);
         let Some(first) = next.first() else { break };
         if first.quasi(inflation) >= best.quasi(inflation) {
             break;
+        }
+        if best.steps.is_empty() {
+            single_bic = next.iter().map(|one| one.bic).fold(0.0, f64::min);
         }
         best = first.clone();
         // Once one is down to the noise, only it climbs on.
@@ -77,11 +93,22 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
         climbing = next;
     }
     let (best, dropped) = without_superfluous(scene, base, best, further)?;
-    let is_structured = match best.steps.is_empty() {
-        true => Goodness::of(scene, base)?.is_structured,
-        false => is_left_over(scene, base, &best, further)?,
-    };
-    Ok(Found { steps: best.steps, dropped, is_structured })
+    if best.steps.is_empty() {
+        let is_structured = Goodness::of(scene, base)?.is_structured;
+        return Ok(Found { steps: best.steps, dropped, is_structured, other_laws: Vec::new() });
+    }
+    let tried = all_candidates(scene, base, further)?;
+    let mut other_laws = rivals(scene, base, tried.len())?;
+    let gain = base.fall_to(&best.fitted);
+    other_laws.retain(|law| {
+        let is_better_than_one = law.bic < single_bic - TELLS_APART;
+        let does_as_well = law.bic < best.bic + TELLS_APART
+            || (is_better_than_one && law.delta_chi2 > NEARLY_ALL * gain);
+        does_as_well && !tried.iter().any(|tried| law.is_the_law_of(tried))
+    });
+    let is_beaten = other_laws.iter().any(|law| law.bic < best.bic - TELLS_APART);
+    let is_structured = is_beaten || Leftover::of(scene, &best.fitted)?.is_structured();
+    Ok(Found { steps: best.steps, dropped, is_structured, other_laws })
 }
 
 impl Hypothesis {
@@ -107,14 +134,12 @@ impl Hypothesis {
         quasi_bic(self.bic, self.gain, inflation)
     }
 
-    fn is_same_set(&self, other: &Hypothesis, scene: &Scene) -> bool {
-        let labels = |hypothesis: &Hypothesis| {
-            let mut labels: Vec<String> =
-                hypothesis.steps.iter().map(|step| step.instance.label(scene)).collect();
-            labels.sort();
-            labels
-        };
-        labels(self) == labels(other)
+    /// The labels of its steps, in the order of the alphabet.
+    fn set(&self, scene: &Scene) -> Vec<String> {
+        let mut labels: Vec<String> =
+            self.steps.iter().map(|step| step.instance.label(scene)).collect();
+        labels.sort();
+        labels
     }
 }
 
@@ -128,21 +153,6 @@ fn inflation(scene: &Scene, ahead: &[(&Hypothesis, Vec<Candidate>)]) -> Result<f
         Some((_, fitted)) => Ok(inflation_of(fitted, &Leftover::of(scene, fitted)?)),
         None => Ok(1.0),
     }
-}
-
-/// Whether the effects of `best` leave more than noise, or one law that the catalogue hasn't got
-/// explains more than all of them.
-fn is_left_over(
-    scene: &Scene,
-    base: &Fitted,
-    best: &Hypothesis,
-    further: &[EffectRequest],
-) -> Result<bool> {
-    if Leftover::of(scene, &best.fitted)?.is_structured() {
-        return Ok(true);
-    }
-    let tried = all_candidates(scene, base, further)?.len();
-    Ok(rivals(scene, base, tried)?.iter().any(|law| law.bic < best.bic - TELLS_APART))
 }
 
 /// Leaves out each effect that the others explain by now, the earliest first.
@@ -166,7 +176,8 @@ fn without_superfluous(
         }
         let with = without.with(scene, &left_out.instance)?;
         let tried = all_candidates(scene, &without, further)?.len();
-        let is_needed = evidence(&without, &with, 1, tried)
+        let scanned = points(scene, &left_out.instance).len().max(1);
+        let is_needed = evidence(&without, &with, scanned, tried)
             .is_some_and(|evidence| evidence.p_value < FALSE_ALARM);
         if is_needed {
             index += 1;

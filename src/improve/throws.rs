@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::{EffectEstimate, Improvement, Rung};
 use crate::diagnose::{
     PooledCandidate, Throw, Verdict, alike, held_out_rmse_m, instances, looks, pooled,
-    put_best_first, reduced_chi2, reported, throws, together, with_own,
+    put_best_first, reduced_chi2, reported, throws, together, with_effect, with_own,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
@@ -15,6 +15,9 @@ use crate::{Reconstruction, Result, Scene};
 
 /// Effects that throws can share and still be told apart.
 const MOST_EFFECTS: usize = 4;
+/// Times that each effect is estimated again with the others: their errors fall by their correlation
+/// squared.
+const ROUNDS: usize = 2;
 
 /// Improves the models of several throws of the same objects: as [`super::improve`], with the
 /// parameters of each effect the same in all.
@@ -26,26 +29,38 @@ pub fn improve_throws(
     options: &RefinedOptions,
     further: &[EffectRequest],
 ) -> Result<Improvement> {
-    let mut throws = throws(scenes, options)?;
-    let mut own = Some(throws.clone());
-    let mut ladder = vec![rung(&throws, Vec::new())?];
+    let base = throws(scenes, options)?;
+    let mut throws = base.clone();
+    let mut added: Vec<PooledCandidate> = Vec::new();
+    let mut ladder = vec![rung(&throws)?];
     for _ in 0..MOST_EFFECTS {
         let mut candidates = pooled(&throws, &instances(&throws, further)?);
-        let Some(best) = put_best_first(&throws, &mut candidates)? else { break };
-        let added = &candidates[0];
-        let is_last = added.is_apart();
-        let setting = (0..throws.len()).find_map(|index| added.held(index));
-        let setting = setting.map(|held| with_values(&added.label, &held));
-        let look_alikes = alike(&candidates, added).map(effect).collect();
-        throws = best.throws;
-        own = own.and_then(|own| with_own(&own, added));
-        let known = ladder.last().map(|rung: &Rung| rung.with.clone()).unwrap_or_default();
-        let with: Vec<String> = known.into_iter().chain(setting).collect();
-        let next = rung(&throws, with)?.adding(effect(added), look_alikes);
-        ladder.push(Rung { p_value: Some(added.p_value), ..next });
-        if is_last {
+        let Some(_) = put_best_first(&throws, &mut candidates)? else { break };
+        let best = candidates[0].clone();
+        let look_alikes = alike(&candidates, &best).map(effect).collect();
+        added.push(best);
+        settle(&base, &mut added)?;
+        throws = with_all(&base, &added)?;
+        let best = &added[added.len() - 1];
+        let next = rung(&throws)?.adding(effect(best), look_alikes);
+        ladder.push(Rung { p_value: Some(candidates[0].p_value), ..next });
+        if best.is_apart() {
             break;
         }
+    }
+    let settings: Vec<String> = added.iter().filter_map(|added| setting(&base, added)).collect();
+    for (index, rung) in ladder.iter_mut().enumerate() {
+        rung.with = settings[..index.min(settings.len())].to_vec();
+        if let Some(index) = index.checked_sub(1) {
+            rung.parameters = effect(&added[index]).parameters;
+            rung.is_shared = added[index].is_shared;
+        }
+    }
+    // What was added later is there already.
+    let labels: Vec<String> = added.iter().map(|added| added.label.clone()).collect();
+    for rung in &mut ladder {
+        rung.indistinguishable_from.retain(|label| !labels.contains(label));
+        rung.look_alikes.retain(|other| !labels.contains(&other.effect));
     }
     let (_, is_structured) = looks(&throws)?;
     let verdict = match (ladder.len() > 1, is_structured) {
@@ -54,18 +69,56 @@ pub fn improve_throws(
         (false, false) => Verdict::NothingMissing,
     };
     let result = reported(throws[0].scene, &throws[0].fitted)?;
+    let own = added.iter().try_fold(base, |own, added| with_own(&own, added));
     let together = own.map_or(Ok(Vec::new()), |own| together(&own))?;
     let scene = throws[0].scene;
     Ok(Improvement { together, ..Improvement::new(scene, verdict, ladder, Vec::new(), result) })
 }
 
-/// How large a candidate is in all throws.
-fn effect(candidate: &PooledCandidate) -> EffectEstimate {
-    EffectEstimate { effect: candidate.label.clone(), parameters: candidate.parameters() }
+/// Gives each effect the values that all throws say of it with those of the others, in turn: what was
+/// added first had been estimated without them.
+fn settle(base: &[Throw], added: &mut [PooledCandidate]) -> Result<()> {
+    let count = added.len();
+    for index in (0..ROUNDS * count).map(|turn| turn % count) {
+        if count == 1 || !added[index].is_shared {
+            continue;
+        }
+        let others = added.iter().enumerate().filter(|(other, _)| *other != index);
+        let others: Vec<PooledCandidate> = others.map(|(_, other)| other.clone()).collect();
+        let throws = with_all(base, &others)?;
+        let own = added[index].own.iter().map(|own| own.iter().map(|own| own.instance.clone()));
+        let mut again = pooled(&throws, &own.map(Iterator::collect).collect::<Vec<_>>());
+        put_best_first(&throws, &mut again)?;
+        added[index] = match again.pop() {
+            Some(again) if again.is_shared && again.is_possible => again,
+            _ => continue,
+        };
+    }
+    Ok(())
 }
 
-/// `NAME@BODY:k=0.03`: what `--with` takes for each throw.
-fn with_values(label: &str, held: &Instance) -> String {
+/// The throws with these effects more, each with what all throws say of it.
+fn with_all<'a>(base: &[Throw<'a>], effects: &[PooledCandidate]) -> Result<Vec<Throw<'a>>> {
+    effects.iter().try_fold(base.to_vec(), |throws, effect| with_effect(&throws, effect))
+}
+
+/// What `--with` takes for a candidate in each throw.
+fn setting(throws: &[Throw], added: &PooledCandidate) -> Option<String> {
+    let held = (0..throws.len()).find_map(|index| added.held(index))?;
+    Some(in_request(&added.label, &held))
+}
+
+/// How large a candidate is in all throws, if it is the same in all.
+fn effect(candidate: &PooledCandidate) -> EffectEstimate {
+    let parameters = match candidate.is_shared {
+        true => candidate.parameters(),
+        false => BTreeMap::new(),
+    };
+    EffectEstimate { effect: candidate.label.clone(), parameters }
+}
+
+/// `NAME@BODY:k=0.03`.
+fn in_request(label: &str, held: &Instance) -> String {
     let one = |(name, values): (&String, &Vec<f64>)| match values.as_slice() {
         [single] => format!("{name}={single}"),
         all => {
@@ -81,7 +134,7 @@ fn with_values(label: &str, held: &Instance) -> String {
 }
 
 /// A rung, over the poses of all throws.
-fn rung(throws: &[Throw], with: Vec<String>) -> Result<Rung> {
+fn rung(throws: &[Throw]) -> Result<Rung> {
     let results: Vec<Reconstruction> =
         throws.iter().map(|throw| reported(throw.scene, &throw.fitted)).collect::<Result<_>>()?;
     let poses: Vec<f64> = throws
@@ -99,9 +152,10 @@ fn rung(throws: &[Throw], with: Vec<String>) -> Result<Rung> {
     let position = rms(results.iter().map(|result| Some(result.fit.position_rmse)).collect());
     Ok(Rung {
         added: None,
-        with,
+        with: Vec::new(),
         p_value: None,
         parameters: BTreeMap::new(),
+        is_shared: true,
         indistinguishable_from: Vec::new(),
         look_alikes: Vec::new(),
         position_rmse: position.unwrap_or(0.0),

@@ -64,6 +64,6 @@ fn hidden_effects_are_drawn_strong_enough_and_found() {
     let nothing_else = ["--clean", "0", "--pairs", "0", "--outside", "0", "--timed", "0"];
     let singles = ["--scenes", "3", "--only", "linear_drag"];
     let text = run("evaluate_hidden", &[&singles[..], &nothing_else[..]].concat());
-    // Drawn for a gain in χ² of 40 and more: none is overlooked.
+    // Drawn for a gain in χ² of 60 and more: none is overlooked.
     assert!(text.contains("| linear_drag | 3 | 100.0 % |"), "{text}");
 }

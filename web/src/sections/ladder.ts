@@ -20,6 +20,7 @@ const VERDICTS = {
 export function ladder(improvement: Improvement): Child[] {
   const plot = ladderPlot(improvement.ladder);
   const dropped = improvement.dropped;
+  const law = improvement.other_laws?.[0];
   return [
     element('p', {}, VERDICTS[improvement.verdict]),
     element(
@@ -52,7 +53,7 @@ export function ladder(improvement: Improvement): Child[] {
     table(
       'The ladder: each rung adds an effect to those above it',
       [
-        { head: 'model' },
+        { head: 'model', isProse: true },
         { head: 'p-value', isNumber: true },
         { head: 'positions', isNumber: true },
         { head: 'held out', isNumber: true },
@@ -64,6 +65,13 @@ export function ladder(improvement: Improvement): Child[] {
       improvement.ladder.map(row),
       'ladder',
     ),
+    law &&
+      element(
+        'p',
+        {},
+        'A law alone that the catalogue hasn’t got does as well or nearly so: ' +
+          `on ${law.body ?? 'all bodies'}, one that goes with ${law.goes_with}; try ${law.law}.`,
+      ),
     dropped.length > 0 &&
       element('p', {}, `Added on the way, and superfluous in the end: ${dropped.join(', ')}.`),
   ];
@@ -82,8 +90,12 @@ function row(rung: Rung): Child[] {
   ];
 }
 
-function added(effect: string, { parameters = {}, look_alikes: lookAlikes = [] }: Rung): Child {
-  const others = lookAlikes.map((other) => withValues(other.effect, other.parameters));
+function added(effect: string, rung: Rung): Child {
+  const { parameters = {}, indistinguishable_from: names = [], look_alikes: lookAlikes = [] } = rung;
+  // Older ladders have names alone.
+  const size = (name: string): Rung['parameters'] =>
+    lookAlikes.find((other) => other.effect === name)?.parameters ?? {};
+  const others = names.map((name) => withValues(name, size(name)));
   const hint = others.length > 0 && ` can’t be told from ${others.join(' or ')}`;
   return element('span', {}, `+ ${withValues(effect, parameters)}`, element('span', { class: 'hint' }, hint));
 }
