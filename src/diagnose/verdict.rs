@@ -70,6 +70,7 @@ pub(super) fn diagnosis(
     let named = first.filter(|_| verdict == Verdict::Missing);
     let lasting = named.and_then(|first| lasting_push(fitted, first, scene, instances.len()));
     other_laws.extend(lasting);
+    other_laws.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     let mut unexplained = match (verdict, rest) {
         (Verdict::UnknownEffect, _) => unexplained(scene, fitted)?,
         (_, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
