@@ -1,5 +1,7 @@
 //! Which of several throws' candidates is the best, and what it makes of the throws.
 
+use rayon::prelude::*;
+
 use super::Goodness;
 use super::dependence::inflation;
 use super::own::Own;
@@ -61,14 +63,14 @@ pub(crate) fn with_effect<'a>(
     throws: &[Throw<'a>],
     effect: &PooledCandidate,
 ) -> Result<Vec<Throw<'a>>> {
-    let with = |(index, throw): (usize, &Throw<'a>)| {
+    let with = |(index, throw): (usize, &Throw<'a>)| -> Result<Throw<'a>> {
         let fitted = match effect.held(index) {
             Some(held) => throw.fitted.with(throw.scene, &held)?,
             None => throw.fitted.clone(),
         };
         Ok(Throw { scene: throw.scene, fitted })
     };
-    throws.iter().enumerate().map(with).collect()
+    throws.par_iter().enumerate().map(with).collect()
 }
 
 /// The throws with an effect more, each as it says itself: what it says of other quantities then is as

@@ -143,7 +143,7 @@ pub(crate) fn pooled(throws: &[Throw], instances: &[Vec<Instance>]) -> Vec<Poole
         }
     }
     let each = |label: String| {
-        let own = throws.iter().zip(instances).map(|(throw, instances)| {
+        let own = throws.par_iter().zip(instances).map(|(throw, instances)| {
             let instance = instances.iter().find(|i| i.label(throw.scene) == label)?;
             Own::of(throw, instance).ok().flatten()
         });

@@ -15,9 +15,6 @@ use crate::{Reconstruction, Result, Scene};
 
 /// Effects that throws can share and still be told apart.
 const MOST_EFFECTS: usize = 4;
-/// Times that each effect is estimated again with the others: their errors fall by their correlation
-/// squared.
-const ROUNDS: usize = 2;
 
 /// Improves the models of several throws of the same objects: as [`super::improve`], with the
 /// parameters of each effect the same in all.
@@ -76,11 +73,13 @@ pub fn improve_throws(
 }
 
 /// Gives each effect the values that all throws say of it with those of the others, in turn: what was
-/// added first had been estimated without them.
+/// added first had been estimated without the last. Each new effect brings another round.
 fn settle(base: &[Throw], added: &mut [PooledCandidate]) -> Result<()> {
-    let count = added.len();
-    for index in (0..ROUNDS * count).map(|turn| turn % count) {
-        if count == 1 || !added[index].is_shared {
+    if added.len() == 1 {
+        return Ok(());
+    }
+    for index in 0..added.len() {
+        if !added[index].is_shared {
             continue;
         }
         let others = added.iter().enumerate().filter(|(other, _)| *other != index);
