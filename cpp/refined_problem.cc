@@ -30,7 +30,8 @@ constexpr double kLargestStepRad = 0.12;
 // Of an effect's flight, whose position needs steps too: with these the integrator's error is some
 // 1e-7 rad and less.
 constexpr double kEffectStepS = 0.02;
-// An integrator's error larger than this share of a deviation could be taken for physics.
+// An integrator's error larger than this share of a deviation, or of what the fit misses where that
+// is more, could be taken for physics.
 constexpr double kLargestError = 0.02;
 constexpr int kFinest = 16;
 // Of one flight with effects: what takes more is a spin on its way beyond all numbers.
@@ -104,21 +105,12 @@ class RefinedFit {
     return solution;
   }
 
-  // How much residuals of effects' flights change when they are integrated twice as finely, in
-  // their deviations.
-  double IntegrationError() const {
-    double largest = 0.0;
-    for (const Flight& flight : flights_) {
-      if (!HasEffects(flight.body, flight.is_after)) continue;
-      const std::vector<double*> values = ValuesOf(flight.blocks);
-      const std::vector<int> steps = EffectSteps(flight, fineness_);
-      std::vector<int> finer = steps;
-      for (int& count : finer) count *= 2;
-      const Eigen::VectorXd difference =
-          ResidualsOf(flight, steps, values) - ResidualsOf(flight, finer, values);
-      largest = std::max(largest, difference.lpNorm<Eigen::Infinity>());
-    }
-    return largest;
+  // Whether the integrator's error counts beside what the fit misses.
+  bool IsInexact(double cost) const {
+    double numbers = 0.0;
+    for (const Flight& flight : flights_) numbers += flight.cost->num_residuals();
+    const double missed = std::sqrt(2.0 * cost / numbers);
+    return IntegrationError() > kLargestError * std::max(1.0, missed);
   }
 
   // Whether a body turns much faster than at the start, so that its steps are too long.
@@ -222,6 +214,23 @@ class RefinedFit {
     return steps;
   }
 
+  // How much residuals of effects' flights change when they are integrated twice as finely, in
+  // their deviations.
+  double IntegrationError() const {
+    double largest = 0.0;
+    for (const Flight& flight : flights_) {
+      if (!HasEffects(flight.body, flight.is_after)) continue;
+      const std::vector<double*> values = ValuesOf(flight.blocks);
+      const std::vector<int> steps = EffectSteps(flight, fineness_);
+      std::vector<int> finer = steps;
+      for (int& count : finer) count *= 2;
+      const Eigen::VectorXd difference =
+          ResidualsOf(flight, steps, values) - ResidualsOf(flight, finer, values);
+      largest = std::max(largest, difference.lpNorm<Eigen::Infinity>());
+    }
+    return largest;
+  }
+
   Eigen::VectorXd ResidualsOf(const Flight& flight, const std::vector<int>& steps,
                               const std::vector<double*>& values) const {
     const EffectFlight functor(effects_[flight.body].body, flight.is_after, Gravity(),
@@ -231,17 +240,17 @@ class RefinedFit {
     return residuals;
   }
 
-  // rad/s, at the most, of a flight that starts as `unknowns` say.
+  // rad/s, at the most, of a flight that starts as `unknowns` say, with all that strikes there.
   double FastestSpin(std::size_t index, bool is_after, const RefinedUnknowns& unknowns) const {
     const RefinedMotion& motion = unknowns.bodies[index];
-    Vector3<double> spin = ToVector3(motion.spin_before);
-    if (is_after) {
-      const double push = index == 0 ? 1.0 : -std::exp(-unknowns.log_mass_ratio);
-      const Vector3<double> lever = ToVector3(unknowns.contact_point) - ToVector3(motion.position);
-      spin += push * lever.cross(ToVector3(unknowns.impulse));
+    const Quaternion<double> q = ToQuaternion(motion.orientation);
+    if (!is_after) {
+      return smash::FastestSpin(ToVector3(scene_.bodies[index].inertia_per_mass), q,
+                                ToVector3(motion.spin_before));
     }
-    return smash::FastestSpin(ToVector3(scene_.bodies[index].inertia_per_mass),
-                              ToQuaternion(motion.orientation), spin);
+    const RefinedLaunch launched = Launches(scene_, unknowns)[index];
+    return smash::FastestSpin(ToVector3(launched.inertia_per_mass), q,
+                              ToVector3(launched.spin_after));
   }
 
   void AddContactPriors() {
@@ -359,7 +368,7 @@ RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& pr
     solution.cost_initial = cost_initial;
     // The steps were chosen by the start's spins.
     const bool is_coarse = is_first && fit.IsTooCoarse(solution.unknowns);
-    const bool is_inexact = fit.IntegrationError() > kLargestError;
+    const bool is_inexact = fit.IsInexact(solution.cost);
     if (!is_coarse && !is_inexact) return solution;
     if (is_inexact && (fineness *= 2) > kFinest) {
       throw std::runtime_error("an effect's law changes too fast along the flight");

@@ -16,6 +16,8 @@ use crate::{Error, ErrorKind, Result};
 const MOST_ITERATIONS: u32 = 50;
 /// Iterations after which a collision time that stays at its segment's end is taken to want beyond.
 const FEW_ITERATIONS: u32 = 4;
+/// Optima whose ½ χ² is larger than the best one's by more have lost.
+pub(super) const HOPELESS: f64 = 40.0;
 
 /// An optimum in one segment.
 #[derive(Debug, Clone)]
@@ -46,21 +48,36 @@ impl Optimum {
     pub(super) fn used(&self, channel: &[f64]) -> f64 {
         information(&self.solution, channel).component_mul(&self.covariance.matrix).sum()
     }
+
+    /// Whether the collision time is at an end of its segment.
+    fn is_at_an_end(&self) -> bool {
+        let Gap { start_s, end_s } = self.gap;
+        let time_s = self.solution.unknowns.collision_time_s;
+        f64::min(time_s - start_s, end_s - time_s) < margin_s(self.gap)
+    }
 }
 
 pub(super) fn information(solution: &RefinedSolution, channel: &[f64]) -> DMatrix<f64> {
     DMatrix::from_row_slice(solution.size, solution.size, channel)
 }
 
-/// The optima that these starts lead to, best first; never empty.
+/// The optima that these starts lead to, best first; never empty. Those that have lost are not followed
+/// to their end.
 pub(super) fn optima_from(
     scene: &RefinedScene,
     starts: &[(RefinedUnknowns, Gap)],
 ) -> Result<Vec<Optimum>> {
     let from = starts.iter().map(|(unknowns, gap)| (unknowns, *gap));
     let optima = all_optima(scene, from, Effort::UntilAtAnEnd)?;
-    let walked = optima.into_iter().map(|best| walked(scene, best));
-    let mut walked = walked.collect::<Result<Vec<Optimum>>>()?;
+    let mut walked: Vec<Optimum> =
+        optima.into_iter().map(|optimum| walked(scene, optimum)).collect();
+    sort(&mut walked);
+    let least = walked[0].solution.cost;
+    for best in walked.iter_mut().filter(|other| other.solution.cost <= least + HOPELESS) {
+        if !best.solution.converged && best.is_at_an_end() {
+            *best = optimum(scene, &best.solution.unknowns, best.gap, Effort::Whole)?;
+        }
+    }
     sort(&mut walked);
     Ok(walked)
 }
@@ -105,18 +122,23 @@ impl Effort {
     }
 }
 
-/// On to the next segment, and the next, as long as the collision time ends at a bound and χ² falls.
-fn walked(scene: &RefinedScene, mut best: Optimum) -> Result<Optimum> {
+/// On to the next segment, and the next, as long as the collision time ends at the bound ahead and χ²
+/// falls. A time that comes back to the bound between two is best there: to and fro it would creep.
+fn walked(scene: &RefinedScene, mut best: Optimum) -> Optimum {
     const MOST_STEPS: usize = 50;
+    let mut goes_down = None;
     for _ in 0..MOST_STEPS {
-        let Gap { start_s, end_s } = best.gap;
-        let time_s = best.solution.unknowns.collision_time_s;
-        if !is_at_an_end(best.gap, time_s) {
+        if !best.is_at_an_end() {
             break;
         }
+        let Gap { start_s, end_s } = best.gap;
+        let time_s = best.solution.unknowns.collision_time_s;
         let margin_s = margin_s(best.gap);
         let Ok(gaps) = gaps(scene, &best.solution.unknowns) else { break };
         let is_down = time_s - start_s < margin_s;
+        if *goes_down.get_or_insert(is_down) != is_down {
+            break;
+        }
         let next = match is_down {
             true => gaps.iter().rfind(|gap| gap.end_s <= start_s + margin_s),
             false => gaps.iter().find(|gap| gap.start_s >= end_s - margin_s),
@@ -128,21 +150,12 @@ fn walked(scene: &RefinedScene, mut best: Optimum) -> Result<Optimum> {
             _ => break,
         }
     }
-    let gave_up =
-        !best.solution.converged && is_at_an_end(best.gap, best.solution.unknowns.collision_time_s);
-    match gave_up {
-        true => optimum(scene, &best.solution.unknowns, best.gap, Effort::Whole),
-        false => Ok(best),
-    }
+    best
 }
 
 /// Nearer to a segment's end, a collision time is at it.
 fn margin_s(gap: Gap) -> f64 {
     1e-6 * (gap.end_s - gap.start_s)
-}
-
-fn is_at_an_end(gap: Gap, time_s: f64) -> bool {
-    time_s - gap.start_s < margin_s(gap) || gap.end_s - time_s < margin_s(gap)
 }
 
 /// The optima from where they are: their noise has changed.

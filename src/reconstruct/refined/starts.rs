@@ -8,7 +8,7 @@ use super::fitted::Fitted;
 use super::freed::freed;
 use super::gain::{gains, gains_without, linearised};
 use super::model::has_plane;
-use super::optimum::{Optimum, optima_from};
+use super::optimum::{HOPELESS, Optimum, optima_from};
 use super::solved_anew::{delayed, without_a_pose};
 use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns};
 use crate::effect::{Scan, Scope};
@@ -17,8 +17,6 @@ use crate::{Result, Scene};
 
 /// Optima of the nested model that are tried.
 const MOST_OPTIMA: usize = 3;
-/// Further optima whose ½ χ² is larger by more have lost.
-const HOPELESS: f64 = 40.0;
 /// Costs that differ by less, of their size, are of one optimum.
 const SAME: f64 = 1e-5;
 /// Points of a scan that are tried.

@@ -3,6 +3,7 @@
 mod derivatives;
 mod effects;
 mod input;
+mod lost;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
