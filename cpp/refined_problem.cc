@@ -24,8 +24,12 @@
 namespace smash {
 namespace {
 
-// Radians a step, at the body's fastest.
+// Radians a step, at the body's fastest: some 1e-6 rad of error in a flight, a thousandth of a
+// deviation of this size.
 constexpr double kLargestStepRad = 0.12;
+constexpr double kUsualDeviationRad = 1e-3;
+// Of the largest step; shorter ones are for what no orientation tells.
+constexpr double kShortestStep = 0.15;
 
 // Of an effect's flight, whose position needs steps too: with these the integrator's error is some
 // 1e-7 rad and less.
@@ -57,6 +61,18 @@ class StaysAtAnEnd : public ceres::IterationCallback {
   std::uint32_t iterations_ = 0;
 };
 
+// Radians a step for orientations as exact as these: the error goes with the step's fourth power.
+double StepRad(const RefinedScene& scene) {
+  double finest_rad = kUsualDeviationRad;
+  for (const RefinedBody& body : scene.bodies) {
+    for (const RefinedPose& pose : body.poses) {
+      if (pose.has_orientation) finest_rad = std::min(finest_rad, pose.orientation_std_rad);
+    }
+  }
+  const double share = std::pow(finest_rad / kUsualDeviationRad, 0.25);
+  return kLargestStepRad * std::max(kShortestStep, share);
+}
+
 class RefinedFit {
  public:
   // `fineness`: how many times finer than usual effects' flights are integrated.
@@ -64,6 +80,7 @@ class RefinedFit {
       : scene_(scene),
         problem_(problem),
         fineness_(fineness),
+        step_rad_(StepRad(scene)),
         blocks_(scene, problem),
         effects_(EffectBodies(scene)) {
     AddFlights();
@@ -162,8 +179,7 @@ class RefinedFit {
 
   ceres::CostFunction* PlainCost(const Flight& flight) const {
     const RefinedBody& body = scene_.bodies[flight.body];
-    const double step_s =
-        kLargestStepRad / FastestSpin(flight.body, flight.is_after, problem_.start);
+    const double step_s = step_rad_ / FastestSpin(flight.body, flight.is_after, problem_.start);
     std::vector<int> pairs;
     double reached_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
     for (const FlightPose& pose : flight.poses) {
@@ -199,7 +215,7 @@ class RefinedFit {
 
   std::vector<int> EffectSteps(const Flight& flight, int fineness) const {
     const double fastest = FastestSpin(flight.body, flight.is_after, problem_.start);
-    const double step_s = std::min(kLargestStepRad / fastest, kEffectStepS) / fineness;
+    const double step_s = std::min(step_rad_ / fastest, kEffectStepS) / fineness;
     const double start_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
     if (!(std::abs(flight.poses.back().time_s - start_s) / step_s < kMostEffectSteps)) {
       throw std::runtime_error("a flight is too long, or turns too fast, to be followed");
@@ -326,6 +342,7 @@ class RefinedFit {
   const RefinedScene& scene_;
   const RefinedProblem& problem_;
   int fineness_;
+  double step_rad_;
   RefinedBlocks blocks_;
   std::vector<ActingEffects> effects_;
   std::vector<Flight> flights_;

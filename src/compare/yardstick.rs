@@ -8,9 +8,6 @@ use crate::Reconstruction;
 use crate::reconstruct::Outlier;
 use crate::scene::Scene;
 
-/// No residual is smaller than what rounding and the solver's own steps leave, in m and rad.
-const LEAST_POSITION_M: f64 = 1e-9;
-const LEAST_TURN_RAD: f64 = 1e-6;
 /// A pose is called wrong in one of so many scenes that have none.
 const FALSE_ALARM: f64 = 0.01;
 
@@ -51,16 +48,17 @@ impl Yardsticks {
             };
             (sigma.is_finite() && dof >= 1.0).then_some(Yardstick { sigma, dof })
         };
+        let least = scene.least_noise();
         let (stated, fitted) = (scene.noise(), result.noise.as_ref());
         Yardsticks {
             position: stick(stated.map(|n| n.position), fitted.map(|n| n.position), positions)
-                .map(|stick| stick.at_least(LEAST_POSITION_M)),
+                .map(|stick| stick.at_least(least.position)),
             orientation: stick(
                 stated.map(|n| n.orientation),
                 fitted.and_then(|n| n.orientation),
                 turns,
             )
-            .map(|stick| stick.at_least(LEAST_TURN_RAD)),
+            .map(|stick| stick.at_least(least.orientation)),
         }
     }
 

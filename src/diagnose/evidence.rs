@@ -55,7 +55,8 @@ pub(super) fn by_chance(fitted: &Fitted, gain: &Gain) -> f64 {
         return ChiSquared::new(count).map_or(1.0, |chi| chi.sf(gain.chi2));
     }
     let spare = fitted.numbers() - fitted.used();
-    let left = (fitted.chi2() - gain.chi2).max(f64::MIN_POSITIVE);
+    // The estimated noise is what is left, but no less than rounding: then χ² is smaller.
+    let left = (fitted.chi2().max(spare) - gain.chi2).max(f64::MIN_POSITIVE);
     let f = gain.chi2 / count / (left / (spare - count));
     FisherSnedecor::new(count, spare - count).map_or(1.0, |fisher| fisher.sf(f))
 }

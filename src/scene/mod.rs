@@ -12,6 +12,7 @@ mod flights;
 mod gaps;
 mod order;
 mod read;
+mod rounding;
 mod setting;
 mod touches;
 mod units;
@@ -21,6 +22,7 @@ mod warn;
 pub use file::{BodyFile, Camera, Noise, ObservationFile, SCENE_SCHEMA, SceneFile, Shape};
 pub use gaps::Gap;
 pub(crate) use gaps::gaps_between;
+pub(crate) use rounding::smallest_m;
 pub use setting::{Setting, SettingBody, SettingCamera, SettingPlane};
 
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};

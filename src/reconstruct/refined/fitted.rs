@@ -8,7 +8,9 @@ use super::acting::{Acting, Instance};
 use super::approach::approached;
 use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
-use super::noise::{KnownNoise, LEAST_NOISE, MOST_NOISE_ROUNDS, positions, settle_noise, turns};
+use super::noise::{
+    KnownNoise, ROUGHLY_SETTLED, SETTLED, least_beside, positions, settle_noise, turns,
+};
 use super::optimum::{Optimum, evaluated, nested_optimum, optima_from};
 use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
@@ -37,12 +39,10 @@ pub(crate) struct Fitted {
 impl Fitted {
     /// The base model's.
     pub(crate) fn base(scene: &Scene, tilt_std_rad: f64, loss: Loss) -> Result<Fitted> {
-        let stated = scene.noise().map(|noise| Noise {
-            position: noise.position.max(LEAST_NOISE.position),
-            orientation: noise.orientation.max(LEAST_NOISE.orientation),
-        });
+        let least = scene.least_noise();
+        let stated = scene.noise().map(|noise| noise.at_least(least));
         let parabolas = Parabolas::new(scene);
-        let mut refined = refined_scene(scene, LEAST_NOISE, tilt_std_rad);
+        let mut refined = refined_scene(scene, least, tilt_std_rad);
         let Solved { optima, noise, segments, phases } =
             solve(&mut refined, &parabolas, stated, loss)?;
         Ok(Fitted { refined, acting: Vec::new(), optima, noise, loss, segments, phases, stated })
@@ -67,12 +67,12 @@ impl Fitted {
     }
 
     /// As [`Fitted::with`], near enough to judge the effect: noise that isn't stated is estimated
-    /// anew once, not until it settles.
+    /// anew until it has roughly settled.
     ///
     /// # Errors
     /// No start leads to a solution.
     pub(crate) fn with_quickly(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
-        self.settled_once(self.extended(scene, instance)?)
+        self.roughly_settled(self.extended(scene, instance)?)
     }
 
     /// As [`Fitted::with_quickly`], from where `near` is, a fit that extends this, too, and from `values` of
@@ -94,15 +94,19 @@ impl Fitted {
         let optima = optima_from(&refined, &[(start, near.best().gap)])?;
         let mut fitted = Fitted { refined, optima, ..self.clone() };
         fitted.acting.push(acting);
-        self.settled_once(fitted)
+        self.roughly_settled(fitted)
     }
 
-    /// `fitted`, which extends this, with noise that isn't stated estimated anew once.
-    fn settled_once(&self, mut fitted: Fitted) -> Result<Fitted> {
+    /// `fitted`, which extends this, with noise that isn't stated roughly settled.
+    fn roughly_settled(&self, mut fitted: Fitted) -> Result<Fitted> {
         if self.loss == Loss::Squares && self.stated.is_none() {
             fitted.optima.truncate(1);
-            fitted.noise =
-                settle_noise(&mut fitted.refined, &mut fitted.optima, self.noise.value, 1)?;
+            fitted.noise = settle_noise(
+                &mut fitted.refined,
+                &mut fitted.optima,
+                self.noise.value,
+                ROUGHLY_SETTLED,
+            )?;
         }
         Ok(fitted)
     }
@@ -171,8 +175,7 @@ impl Fitted {
             (Loss::Squares, Some(_)) => {}
             (Loss::Squares, None) => {
                 let guess = self.noise.value;
-                self.noise =
-                    settle_noise(&mut self.refined, &mut self.optima, guess, MOST_NOISE_ROUNDS)?;
+                self.noise = settle_noise(&mut self.refined, &mut self.optima, guess, SETTLED)?;
             }
         }
         Ok(())
@@ -209,20 +212,24 @@ impl Fitted {
         if self.stated.is_some() {
             return self.chi2() - larger.chi2();
         }
-        let of = |before: (f64, f64), after: (f64, f64), least: f64, spare: Option<f64>| {
-            let floor = |(count, squares): (f64, f64)| squares.max(count * least * least);
-            match before.0 > 0.0 {
-                true => spare.unwrap_or(0.0) * (floor(before) / floor(after)).ln(),
-                false => 0.0,
-            }
+        let [before, after] = [self, larger].map(Fitted::left);
+        let of = |before: f64, after: f64, spare: Option<f64>| {
+            2.0 * spare.unwrap_or(0.0) * (before / after).ln()
         };
-        let [before, after] =
-            [self, larger].map(|fitted| positions(&fitted.refined, &fitted.best().solution));
-        let [turned, turned_after] =
-            [self, larger].map(|fitted| turns(&fitted.refined, &fitted.best().solution));
         let KnownNoise { position_dof, orientation_dof, .. } = larger.noise;
-        of(before, after, LEAST_NOISE.position, position_dof)
-            + of(turned, turned_after, LEAST_NOISE.orientation, orientation_dof)
+        of(before.position, after.position, position_dof)
+            + of(before.orientation, after.orientation, orientation_dof)
+    }
+
+    /// The root mean square of what is left in each channel, no less than its least noise.
+    fn left(&self) -> Noise {
+        let solution = &self.best().solution;
+        let rms = |(count, squares): (f64, f64)| (squares / count.max(1.0)).sqrt();
+        let left = Noise {
+            position: rms(positions(&self.refined, solution)),
+            orientation: rms(turns(&self.refined, solution)),
+        };
+        left.at_least(least_beside(&self.refined, left))
     }
 
     /// How many of the effect's free scalars the data depend on, beside all other unknowns.

@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 
 use super::acting::Instance;
 use super::model::refined_scene;
-use super::noise::LEAST_NOISE;
 use crate::bridge::refined::ffi::{
     FlownState, RefinedMotion, RefinedScene, RefinedUnknowns, fly, launch, pose_times,
 };
@@ -81,7 +80,7 @@ pub(crate) fn model_times(
 /// The result's model of the scene but for what strikes at the collision, which its states before
 /// and after tell already; and the effects' parameters.
 fn model(scene: &Scene, result: &Reconstruction) -> Result<(RefinedScene, Vec<f64>)> {
-    let mut refined = refined_scene(scene, LEAST_NOISE, 1.0);
+    let mut refined = refined_scene(scene, scene.least_noise(), 1.0);
     refined.gravity_m_s2 = result.gravity.map_or(refined.gravity_m_s2, |g| Vector3::from(g).norm());
     let mut parameters = Vec::new();
     for (index, active) in result.effects.iter().enumerate() {

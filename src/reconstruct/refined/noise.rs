@@ -5,14 +5,22 @@ use super::optimum::{Optimum, sort, warm};
 use super::parabolas::Parabolas;
 use crate::Result;
 use crate::bridge::refined::ffi::{RefinedScene, RefinedSolution};
-use crate::scene::Noise;
+use crate::scene::{Noise, smallest_m};
 
-/// Rounds of estimating the noise; it settles to a per mille in three or four.
-pub(super) const MOST_NOISE_ROUNDS: usize = 8;
+/// Rounds of estimating the noise; it settles to a per mille in three or four, where the model misses
+/// something and now doesn't in twice as many.
+const MOST_NOISE_ROUNDS: usize = 8;
+/// A thousandth: far finer than any number of poses tells it.
+pub(super) const SETTLED: f64 = 1e-3;
+/// Near enough to judge an effect by: what explains the poses makes the noise fall by orders, and weights
+/// that were chosen for what was missed before stay in its way.
+pub(super) const ROUGHLY_SETTLED: f64 = 2.0;
 /// From fewer spare numbers the estimate would be off by a factor of two as often as not.
 const LEAST_SPARE: f64 = 1.5;
-/// Below, the noise is that of rounding and of the integrator.
-pub(super) const LEAST_NOISE: Noise = Noise { position: 1e-9, orientation: 1e-9 };
+/// Of one channel's noise the other's is at least so much, a turn as what it moves at the end of a body.
+/// What is missing from a model may touch one alone, and leave the other nothing: the fit would hold to
+/// that to the last digit, and no step lead on from there.
+const LEAST_RATIO: f64 = 1e-2;
 
 /// The noise, and how it is known.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +40,21 @@ impl KnownNoise {
     pub(super) fn stated(value: Noise) -> Self {
         KnownNoise { value, position_dof: None, orientation_dof: None }
     }
+
+    /// From what each channel's residuals say, with the spare numbers that they say it by.
+    pub(super) fn estimated(
+        scene: &RefinedScene,
+        (position, position_dof): (f64, Option<f64>),
+        (orientation, orientation_dof): (f64, Option<f64>),
+    ) -> Self {
+        let told = |noise: f64, dof| if is_known(dof) { noise } else { 0.0 };
+        let left = Noise {
+            position: told(position, position_dof),
+            orientation: told(orientation, orientation_dof),
+        };
+        let value = Noise { position, orientation }.at_least(least_beside(scene, left));
+        KnownNoise { value, position_dof, orientation_dof }
+    }
 }
 
 /// A noise to start from where none is stated: of positions, what two lines that meet leave over;
@@ -47,17 +70,19 @@ pub(super) fn first_guess(parabolas: &Parabolas, squares_m2: f64) -> Noise {
 
 /// Estimates the noise of each channel from its residuals and refits until both agree: σ² = RSS over
 /// the channel's numbers minus those that the fit used up (Förstner's variance components).
+/// `tolerance`: the factor, less 1, by which it may still change.
 pub(super) fn settle_noise(
     scene: &mut RefinedScene,
     optima: &mut Vec<Optimum>,
     guess: Noise,
-    most_rounds: usize,
+    tolerance: f64,
 ) -> Result<KnownNoise> {
     let mut noise = KnownNoise::stated(guess);
     // Only the best is refitted on the way: the others follow once.
     let mut best = optima[..1].to_vec();
-    for _ in 0..most_rounds {
+    for _ in 0..MOST_NOISE_ROUNDS {
         let next = estimated_noise(scene, &best[0], noise.value);
+        let close = |a: f64, b: f64| (a / b).max(b / a) < 1.0 + tolerance;
         let settled = close(next.value.position, noise.value.position)
             && close(next.value.orientation, noise.value.orientation);
         noise = next;
@@ -75,27 +100,32 @@ pub(super) fn settle_noise(
     Ok(noise)
 }
 
-/// To a thousandth: far finer than any number of poses tells it.
-fn close(a: f64, b: f64) -> bool {
-    (a / b - 1.0).abs() < 1e-3
-}
-
 fn estimated_noise(scene: &RefinedScene, optimum: &Optimum, noise: Noise) -> KnownNoise {
     let solution = &optimum.solution;
     let used = |channel: &[f64]| optimum.used(channel);
-    let (position, position_dof) = channel_noise(
+    let position = channel_noise(
         positions(scene, solution),
         used(&solution.position_information),
         noise.position,
-        LEAST_NOISE.position,
     );
-    let (orientation, orientation_dof) = channel_noise(
+    let orientation = channel_noise(
         turns(scene, solution),
         used(&solution.orientation_information),
         noise.orientation,
-        LEAST_NOISE.orientation,
     );
-    KnownNoise { value: Noise { position, orientation }, position_dof, orientation_dof }
+    KnownNoise::estimated(scene, position, orientation)
+}
+
+/// The least noise of each channel where residuals are as large as `left`, zero of a channel that says
+/// nothing.
+pub(super) fn least_beside(scene: &RefinedScene, left: Noise) -> Noise {
+    let edges_m = || scene.bodies.iter().map(|body| body.size);
+    let size_m = smallest_m(edges_m());
+    let beside = Noise {
+        position: LEAST_RATIO * left.orientation * size_m,
+        orientation: LEAST_RATIO * left.position / size_m,
+    };
+    beside.at_least(Noise::least(edges_m()))
 }
 
 /// How many position coordinates there are, and the sum of their squared residuals, m²: each as if its
@@ -126,15 +156,10 @@ pub(super) fn square(v: &[f64; 3]) -> f64 {
 
 /// The deviation of a channel with `count` numbers of which the fit used up `used`, and what is
 /// spare; as it was where too little is.
-fn channel_noise(
-    (count, squares): (f64, f64),
-    used: f64,
-    before: f64,
-    least: f64,
-) -> (f64, Option<f64>) {
+fn channel_noise((count, squares): (f64, f64), used: f64, before: f64) -> (f64, Option<f64>) {
     let spare = count - used;
     match spare > LEAST_SPARE {
-        true => ((squares / spare).sqrt().max(least), Some(spare)),
+        true => ((squares / spare).sqrt(), Some(spare)),
         false => (before, Some(spare.max(0.0))),
     }
 }

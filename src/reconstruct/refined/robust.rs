@@ -5,7 +5,7 @@
 //! three dimensions (Lange, Little & Taylor, *Robust statistical modeling using the t distribution*,
 //! 1989).
 
-use super::noise::{KnownNoise, LEAST_NOISE, square};
+use super::noise::{KnownNoise, square};
 use super::optimum::{Optimum, warm};
 use crate::bridge::refined::ffi::{RefinedPose, RefinedResidual, RefinedScene, RefinedSolution};
 use crate::reconstruct::{Loss, Outlier};
@@ -192,7 +192,7 @@ fn weigh(scene: &mut RefinedScene, solution: &RefinedSolution, noise: Noise) -> 
 fn median_noise(scene: &RefinedScene, optimum: &Optimum, before: Noise) -> KnownNoise {
     let solution = &optimum.solution;
     let (mut positions, mut turns) = squares(scene, solution);
-    let deviation = |squares: &mut Vec<f64>, channel: &[f64], before: f64, least: f64| {
+    let deviation = |squares: &mut Vec<f64>, channel: &[f64], before: f64| {
         let count = 3.0 * squares.len() as f64;
         let spare = count - optimum.used(channel);
         if spare < 3.0 {
@@ -200,19 +200,9 @@ fn median_noise(scene: &RefinedScene, optimum: &Optimum, before: Noise) -> Known
         }
         squares.sort_by(f64::total_cmp);
         let median = squares[squares.len() / 2];
-        ((median / MEDIAN_CHI2 * count / spare).sqrt().max(least), Some(spare))
+        ((median / MEDIAN_CHI2 * count / spare).sqrt(), Some(spare))
     };
-    let (position, position_dof) = deviation(
-        &mut positions,
-        &solution.position_information,
-        before.position,
-        LEAST_NOISE.position,
-    );
-    let (orientation, orientation_dof) = deviation(
-        &mut turns,
-        &solution.orientation_information,
-        before.orientation,
-        LEAST_NOISE.orientation,
-    );
-    KnownNoise { value: Noise { position, orientation }, position_dof, orientation_dof }
+    let position = deviation(&mut positions, &solution.position_information, before.position);
+    let orientation = deviation(&mut turns, &solution.orientation_information, before.orientation);
+    KnownNoise::estimated(scene, position, orientation)
 }

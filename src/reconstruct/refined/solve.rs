@@ -4,7 +4,7 @@
 use std::time::Instant;
 
 use super::model::set_noise;
-use super::noise::{KnownNoise, MOST_NOISE_ROUNDS, first_guess, positions, settle_noise, turns};
+use super::noise::{KnownNoise, SETTLED, first_guess, positions, settle_noise, turns};
 use super::optimum::{Optimum, optima_from};
 use super::parabolas::{Parabolas, Segment};
 use super::robust::{residual_cost, settle_robustly};
@@ -57,7 +57,7 @@ pub(super) fn solve(
         let noise = match (loss, stated) {
             (Loss::Robust, _) => settle_robustly(scene, &mut optima, guess, stated)?,
             (Loss::Squares, Some(value)) => KnownNoise::stated(value),
-            (Loss::Squares, None) => settle_noise(scene, &mut optima, guess, MOST_NOISE_ROUNDS)?,
+            (Loss::Squares, None) => settle_noise(scene, &mut optima, guess, SETTLED)?,
         };
         let all_s = started.elapsed().as_secs_f64();
         let best = &optima[0].solution;

@@ -3,6 +3,7 @@
 
 mod clean;
 mod command;
+mod exact;
 mod hidden;
 mod objects;
 mod pairs;
