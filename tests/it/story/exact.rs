@@ -18,7 +18,7 @@ fn an_effect_is_found_to_rounding() {
     let hidden = [
         ("magnus@a", effect("magnus", Some("a"), &[("k", &[0.03])])),
         ("gravity_scale", effect("gravity_scale", None, &[("s", &[1.03])])),
-        ("spin_drag@a", effect("spin_drag", Some("a"), &[("k", &[0.3])])),
+        ("spin_drag@a", effect("spin_drag", Some("a"), &[("kappa", &[0.3])])),
     ];
     for (label, hidden) in hidden {
         let simulation = exact(boxes(1), std::slice::from_ref(&hidden));
