@@ -33,7 +33,7 @@ fn an_effect_is_found_to_rounding() {
         near(result.mass_ratio.unwrap().value.unwrap(), simulation.truth.mass_ratio.unwrap());
         near(result.restitution.value.unwrap(), simulation.truth.restitution);
         let (name, value) = hidden.parameters.iter().next().unwrap();
-        let found = result.effects[0].parameters[name].value.clone().unwrap();
+        let found = result.effects[0].parameters[name].value.unwrap();
         near(found.components()[0], value.components()[0]);
     }
 }
