@@ -37,6 +37,8 @@ constexpr double kEffectStepS = 0.02;
 // An integrator's error larger than this share of a deviation, or of what the fit misses where that
 // is more, could be taken for physics.
 constexpr double kLargestError = 0.02;
+// Deviations; what misses more may be on its way beyond all numbers.
+constexpr double kMostMissed = 100.0;
 constexpr int kFinest = 16;
 // Of one flight with effects: what takes more is a spin on its way beyond all numbers.
 constexpr double kMostEffectSteps = 2e4;
@@ -127,7 +129,7 @@ class RefinedFit {
     double numbers = 0.0;
     for (const Flight& flight : flights_) numbers += flight.cost->num_residuals();
     const double missed = std::sqrt(2.0 * cost / numbers);
-    return IntegrationError() > kLargestError * std::max(1.0, missed);
+    return IntegrationError() > kLargestError * std::min(kMostMissed, std::max(1.0, missed));
   }
 
   // Whether a body turns much faster than at the start, so that its steps are too long.
