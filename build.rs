@@ -26,6 +26,7 @@ fn main() {
         .file("cpp/bridge.cc")
         .file("cpp/flight_fits.cc")
         .file("cpp/flight_reference.cc")
+        .file("cpp/flight_steps.cc")
         .file("cpp/paper_problem.cc")
         .file("cpp/refined_blocks.cc")
         .file("cpp/refined_bridge.cc")

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "flight_steps.h"
 #include "refined_blocks.h"
-#include "refined_problem.h"
 
 namespace smash {
 namespace {

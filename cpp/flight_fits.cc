@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "flight_steps.h"
 #include "functors/jump.h"
 #include "refined_problem.h"
 

@@ -14,6 +14,7 @@
 
 #include "acting_effects.h"
 #include "ceres_compat.h"
+#include "flight_steps.h"
 #include "functors/contact_prior.h"
 #include "functors/effect_flight.h"
 #include "functors/restitution.h"
@@ -24,27 +25,17 @@
 namespace smash {
 namespace {
 
-// Radians a step, at the body's fastest: some 1e-6 rad of error in a flight, a thousandth of a
-// deviation of this size.
-constexpr double kLargestStepRad = 0.12;
-constexpr double kUsualDeviationRad = 1e-3;
-// Of the largest step; shorter ones are for what no orientation tells.
-constexpr double kShortestStep = 0.15;
-
-// Of an effect's flight, whose position needs steps too: with these the integrator's error is some
-// 1e-7 rad and less.
-constexpr double kEffectStepS = 0.02;
 // An integrator's error larger than this share of a deviation, or of what the fit misses where that
 // is more, could be taken for physics.
 constexpr double kLargestError = 0.02;
 // Deviations; what misses more may be on its way beyond all numbers.
 constexpr double kMostMissed = 100.0;
 constexpr int kFinest = 16;
-// Of one flight with effects: what takes more is a spin on its way beyond all numbers.
-constexpr double kMostEffectSteps = 2e4;
+// In a row, with a free collision time at an end of its segment.
+constexpr int kMostIterationsAtAnEnd = 4;
 
-// Ends the search where the collision time stays at an end of its segment: there steps are short,
-// and most often lead nowhere, since the optimum is in the next segment.
+// Ends the search where the collision time stays at an end of its segment: there steps are cut
+// short, and most often the optimum is in the next segment.
 class StaysAtAnEnd : public ceres::IterationCallback {
  public:
   StaysAtAnEnd(const RefinedProblem& problem, const double* time_s)
@@ -52,28 +43,16 @@ class StaysAtAnEnd : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
     const bool is_at_an_end = *time_s_ <= problem_.earliest_s || *time_s_ >= problem_.latest_s;
-    iterations_ = is_at_an_end ? iterations_ + 1 : 0;
-    return iterations_ < problem_.most_iterations_at_an_end ? ceres::SOLVER_CONTINUE
-                                                            : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    iterations_ = is_at_an_end && !problem_.hold.collision_time ? iterations_ + 1 : 0;
+    return iterations_ < kMostIterationsAtAnEnd ? ceres::SOLVER_CONTINUE
+                                                : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
  private:
   const RefinedProblem& problem_;
   const double* time_s_;
-  std::uint32_t iterations_ = 0;
+  int iterations_ = 0;
 };
-
-// Radians a step for orientations as exact as these: the error goes with the step's fourth power.
-double StepRad(const RefinedScene& scene) {
-  double finest_rad = kUsualDeviationRad;
-  for (const RefinedBody& body : scene.bodies) {
-    for (const RefinedPose& pose : body.poses) {
-      if (pose.has_orientation) finest_rad = std::min(finest_rad, pose.orientation_std_rad);
-    }
-  }
-  const double share = std::pow(finest_rad / kUsualDeviationRad, 0.25);
-  return kLargestStepRad * std::max(kShortestStep, share);
-}
 
 class RefinedFit {
  public:
@@ -82,7 +61,7 @@ class RefinedFit {
       : scene_(scene),
         problem_(problem),
         fineness_(fineness),
-        step_rad_(StepRad(scene)),
+        steps_(scene, problem),
         blocks_(scene, problem),
         effects_(EffectBodies(scene)) {
     AddFlights();
@@ -132,13 +111,10 @@ class RefinedFit {
     return IntegrationError() > kLargestError * std::min(kMostMissed, std::max(1.0, missed));
   }
 
-  // Whether a body turns much faster than at the start, so that its steps are too long.
+  // Whether a body turns much faster than at the start.
   bool IsTooCoarse(const RefinedUnknowns& unknowns) const {
-    for (const Flight& flight : flights_) {
-      const double used = FastestSpin(flight.body, flight.is_after, problem_.start);
-      if (0.7 * FastestSpin(flight.body, flight.is_after, unknowns) > used) return true;
-    }
-    return false;
+    return std::any_of(flights_.begin(), flights_.end(),
+                       [&](const Flight& flight) { return steps_.AreTooLong(flight, unknowns); });
   }
 
   const std::vector<Flight>& flights() const { return flights_; }
@@ -181,22 +157,15 @@ class RefinedFit {
 
   ceres::CostFunction* PlainCost(const Flight& flight) const {
     const RefinedBody& body = scene_.bodies[flight.body];
-    const double step_s = step_rad_ / FastestSpin(flight.body, flight.is_after, problem_.start);
-    std::vector<int> pairs;
-    double reached_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
-    for (const FlightPose& pose : flight.poses) {
-      pairs.push_back(FreeRotation::Pairs(pose.time_s - reached_s, step_s));
-      reached_s = pose.time_s;
-    }
     return new FlightCost({ToVector3(body.inertia_per_mass), body.has_spin, flight.body == 0},
                           flight.is_after, Gravity(), blocks_.contact, flight.poses,
-                          std::move(pairs));
+                          steps_.Pairs(flight));
   }
 
   ceres::CostFunction* EffectCost(const Flight& flight) const {
     auto functor = std::make_unique<EffectFlight>(effects_[flight.body].body, flight.is_after,
                                                   Gravity(), blocks_.contact, flight.poses,
-                                                  EffectSteps(flight, fineness_));
+                                                  steps_.WithEffects(flight, fineness_));
     // One pass takes so many derivatives.
     if (flight.blocks.size() <= 8) return DynamicCost<20>(std::move(functor), flight);
     return DynamicCost<28>(std::move(functor), flight);
@@ -215,23 +184,6 @@ class RefinedFit {
     return cost;
   }
 
-  std::vector<int> EffectSteps(const Flight& flight, int fineness) const {
-    const double fastest = FastestSpin(flight.body, flight.is_after, problem_.start);
-    const double step_s = std::min(step_rad_ / fastest, kEffectStepS) / fineness;
-    const double start_s = flight.is_after ? problem_.earliest_s : problem_.latest_s;
-    if (!(std::abs(flight.poses.back().time_s - start_s) / step_s < kMostEffectSteps)) {
-      throw std::runtime_error("a flight is too long, or turns too fast, to be followed");
-    }
-    std::vector<int> steps;
-    double reached_s = start_s;
-    for (const FlightPose& pose : flight.poses) {
-      const double count = std::ceil(std::abs(pose.time_s - reached_s) / step_s);
-      steps.push_back(std::max(1, static_cast<int>(count)));
-      reached_s = pose.time_s;
-    }
-    return steps;
-  }
-
   // How much residuals of effects' flights change when they are integrated twice as finely, in
   // their deviations.
   double IntegrationError() const {
@@ -239,7 +191,7 @@ class RefinedFit {
     for (const Flight& flight : flights_) {
       if (!HasEffects(flight.body, flight.is_after)) continue;
       const std::vector<double*> values = ValuesOf(flight.blocks);
-      const std::vector<int> steps = EffectSteps(flight, fineness_);
+      const std::vector<int> steps = steps_.WithEffects(flight, fineness_);
       std::vector<int> finer = steps;
       for (int& count : finer) count *= 2;
       const Eigen::VectorXd difference =
@@ -256,19 +208,6 @@ class RefinedFit {
     Eigen::VectorXd residuals(flight.cost->num_residuals());
     functor(values.data(), residuals.data());
     return residuals;
-  }
-
-  // rad/s, at the most, of a flight that starts as `unknowns` say, with all that strikes there.
-  double FastestSpin(std::size_t index, bool is_after, const RefinedUnknowns& unknowns) const {
-    const RefinedMotion& motion = unknowns.bodies[index];
-    const Quaternion<double> q = ToQuaternion(motion.orientation);
-    if (!is_after) {
-      return smash::FastestSpin(ToVector3(scene_.bodies[index].inertia_per_mass), q,
-                                ToVector3(motion.spin_before));
-    }
-    const RefinedLaunch launched = Launches(scene_, unknowns)[index];
-    return smash::FastestSpin(ToVector3(launched.inertia_per_mass), q,
-                              ToVector3(launched.spin_after));
   }
 
   void AddContactPriors() {
@@ -344,7 +283,7 @@ class RefinedFit {
   const RefinedScene& scene_;
   const RefinedProblem& problem_;
   int fineness_;
-  double step_rad_;
+  FlightSteps steps_;
   RefinedBlocks blocks_;
   std::vector<ActingEffects> effects_;
   std::vector<Flight> flights_;
@@ -352,19 +291,6 @@ class RefinedFit {
 };
 
 }  // namespace
-
-double FastestSpin(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
-                   const Vector3<double>& l) {
-  // The energy l.omega is constant: omega^2 is at most l.omega / I_min.
-  const Vector3<double> omega =
-      AngularVelocity(q, l, Vector3<double>(inertia_per_mass.cwiseInverse()));
-  return std::max(1e-6, std::sqrt(std::max(0.0, l.dot(omega)) / inertia_per_mass.minCoeff()));
-}
-
-double LongestStep(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
-                   const Vector3<double>& l) {
-  return kLargestStepRad / FastestSpin(inertia_per_mass, q, l);
-}
 
 FlightPose ToFlightPose(const RefinedPose& pose) {
   return {pose.time_s,

@@ -17,15 +17,6 @@ RefinedSolution SolveRefined(const RefinedScene& scene, const RefinedProblem& pr
 void VisitFlights(const RefinedScene& scene, const RefinedProblem& problem,
                   const std::function<void(const Flight&)>& visit);
 
-// rad/s, at the most, of a free rotation.
-double FastestSpin(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
-                   const Vector3<double>& l);
-
-// The longest step that keeps the integrator's error far under any annotation's: 5e-7 rad over
-// ten rad.
-double LongestStep(const Vector3<double>& inertia_per_mass, const Quaternion<double>& q,
-                   const Vector3<double>& l);
-
 FlightPose ToFlightPose(const RefinedPose& pose);
 
 }  // namespace smash

@@ -145,7 +145,9 @@ fn of_seeds(arguments: &Arguments) -> Result<()> {
         let name = shared[*seed as usize % shared.len()];
         hidden_throws(name, THROWS, Regime::of_seed(*seed / shared.len() as u64), *seed)
     };
-    tell(&in_parallel(&seeds(arguments.throws), throws)?, throws::table)?;
+    let throws = in_parallel(&seeds(arguments.throws), throws)?;
+    throws.iter().try_for_each(|set| keep(set))?;
+    tell(&throws, throws::table)?;
     let timed =
         |seed: &u64| hidden_scene(&[names[*seed as usize % names.len()]], Regime::Medium, *seed);
     let mut timed = in_parallel(&seeds(arguments.timed), timed)?;

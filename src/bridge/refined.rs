@@ -139,8 +139,6 @@ pub(crate) mod ffi {
         restitution: RestitutionPin,
         /// 0: only evaluates the start.
         most_iterations: u32,
-        /// In a row with the collision time at an end of its segment.
-        most_iterations_at_an_end: u32,
         /// Whether the solution is to hold the Jacobian.
         with_jacobian: bool,
     }

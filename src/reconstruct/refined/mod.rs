@@ -8,6 +8,7 @@
 //! ```
 
 pub(crate) mod acting;
+mod along_bounds;
 mod alternatives;
 mod approach;
 mod covariance;

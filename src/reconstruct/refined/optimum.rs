@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 
+use super::along_bounds::{Effort, free_problem, is_at_an_end, is_better, margin_s, solve, solved};
 use super::covariance::Covariance;
 use crate::bridge::refined::ffi::{
-    self, ParameterRule, RefinedBody, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution,
-    RefinedUnknowns, RestitutionPin,
+    self, RefinedBody, RefinedScene, RefinedSolution, RefinedUnknowns,
 };
 use crate::effect::Hook;
 use crate::reconstruct::solver_error;
@@ -13,9 +13,6 @@ use crate::scene::bounds::LEAST_POSES;
 use crate::scene::{Gap, gaps_between};
 use crate::{Error, ErrorKind, Result};
 
-const MOST_ITERATIONS: u32 = 50;
-/// Iterations after which a collision time that stays at its segment's end is taken to want beyond.
-const FEW_ITERATIONS: u32 = 4;
 /// Optima whose ½ χ² is larger than the best one's by more have lost.
 pub(super) const HOPELESS: f64 = 40.0;
 
@@ -27,33 +24,10 @@ pub(crate) struct Optimum {
     pub(crate) covariance: Covariance,
 }
 
-/// Minimises from where `unknowns` are, with nothing held.
-pub(super) fn free_problem(unknowns: &RefinedUnknowns, gap: &Gap) -> RefinedProblem {
-    let mut start = unknowns.clone();
-    start.collision_time_s = start.collision_time_s.clamp(gap.start_s, gap.end_s);
-    RefinedProblem {
-        start,
-        earliest_s: gap.start_s,
-        latest_s: gap.end_s,
-        hold: RefinedHold { collision_time: false, log_mass_ratio: false },
-        restitution: RestitutionPin { value: 0.0, weight: 0.0 },
-        most_iterations: MOST_ITERATIONS,
-        most_iterations_at_an_end: MOST_ITERATIONS,
-        with_jacobian: false,
-    }
-}
-
 impl Optimum {
     /// How many of a channel's numbers the fit used up: the trace of its hat matrix.
     pub(super) fn used(&self, channel: &[f64]) -> f64 {
         information(&self.solution, channel).component_mul(&self.covariance.matrix).sum()
-    }
-
-    /// Whether the collision time is at an end of its segment.
-    fn is_at_an_end(&self) -> bool {
-        let Gap { start_s, end_s } = self.gap;
-        let time_s = self.solution.unknowns.collision_time_s;
-        f64::min(time_s - start_s, end_s - time_s) < margin_s(self.gap)
     }
 }
 
@@ -68,18 +42,19 @@ pub(super) fn optima_from(
     starts: &[(RefinedUnknowns, Gap)],
 ) -> Result<Vec<Optimum>> {
     let from = starts.iter().map(|(unknowns, gap)| (unknowns, *gap));
-    let optima = all_optima(scene, from, Effort::UntilAtAnEnd)?;
-    let mut walked: Vec<Optimum> =
-        optima.into_iter().map(|optimum| walked(scene, optimum)).collect();
-    sort(&mut walked);
-    let least = walked[0].solution.cost;
-    for best in walked.iter_mut().filter(|other| other.solution.cost <= least + HOPELESS) {
-        if !best.solution.converged && best.is_at_an_end() {
-            *best = optimum(scene, &best.solution.unknowns, best.gap, Effort::Whole)?;
+    let found = all_optima(scene, from, Effort::UntilAtAnEnd)?;
+    let mut optima: Vec<Optimum> =
+        found.into_iter().map(|optimum| walked(scene, optimum, Effort::UntilAtAnEnd)).collect();
+    sort(&mut optima);
+    let least = optima[0].solution.cost;
+    for best in optima.iter_mut().filter(|other| other.solution.cost <= least + HOPELESS) {
+        if is_at_an_end(best.gap, &best.solution) {
+            let along = optimum(scene, &best.solution.unknowns, best.gap, Effort::Whole)?;
+            *best = walked(scene, along, Effort::Whole);
         }
     }
-    sort(&mut walked);
-    Ok(walked)
+    sort(&mut optima);
+    Ok(optima)
 }
 
 /// The optimum of a nested model as one of `scene`, where at `unknowns` it is the same model: cost
@@ -96,46 +71,25 @@ pub(super) fn nested_optimum(
         cost: known.cost,
         converged: known.converged,
         residuals: known.residuals,
-        ..ffi::solve_refined(scene, &problem).map_err(solver_error)?
+        ..solve(scene, &problem)?
     };
     let covariance = Covariance::new(&total_information(&solution));
     Ok(Optimum { gap: nested.gap, covariance, solution })
 }
 
-/// How far an optimum is followed.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Effort {
-    /// To its end.
-    Whole,
-    /// To its end, unless the collision time stays at its segment's end: there the steps are short, and
-    /// most often lead nowhere, since the optimum is in the next segment.
-    UntilAtAnEnd,
-}
-
-impl Effort {
-    fn problem(self, unknowns: &RefinedUnknowns, gap: &Gap) -> RefinedProblem {
-        let mut problem = free_problem(unknowns, gap);
-        if self == Effort::UntilAtAnEnd {
-            problem.most_iterations_at_an_end = FEW_ITERATIONS;
-        }
-        problem
-    }
-}
-
 /// On to the next segment, and the next, as long as the collision time ends at the bound ahead and χ²
 /// falls. A time that comes back to the bound between two is best there: to and fro it would creep.
-fn walked(scene: &RefinedScene, mut best: Optimum) -> Optimum {
+fn walked(scene: &RefinedScene, mut best: Optimum, effort: Effort) -> Optimum {
     const MOST_STEPS: usize = 50;
     let mut goes_down = None;
     for _ in 0..MOST_STEPS {
-        if !best.is_at_an_end() {
+        if !is_at_an_end(best.gap, &best.solution) {
             break;
         }
         let Gap { start_s, end_s } = best.gap;
-        let time_s = best.solution.unknowns.collision_time_s;
         let margin_s = margin_s(best.gap);
         let Ok(gaps) = gaps(scene, &best.solution.unknowns) else { break };
-        let is_down = time_s - start_s < margin_s;
+        let is_down = best.solution.unknowns.collision_time_s - start_s < margin_s;
         if *goes_down.get_or_insert(is_down) != is_down {
             break;
         }
@@ -144,18 +98,12 @@ fn walked(scene: &RefinedScene, mut best: Optimum) -> Optimum {
             false => gaps.iter().find(|gap| gap.start_s >= end_s - margin_s),
         };
         let Some(&gap) = next else { break };
-        match optimum(scene, &best.solution.unknowns, gap, Effort::UntilAtAnEnd) {
-            // By more than rounding.
-            Ok(other) if other.solution.cost < best.solution.cost * (1.0 - 1e-9) => best = other,
+        match optimum(scene, &best.solution.unknowns, gap, effort) {
+            Ok(other) if is_better(&other.solution, &best.solution) => best = other,
             _ => break,
         }
     }
     best
-}
-
-/// Nearer to a segment's end, a collision time is at it.
-fn margin_s(gap: Gap) -> f64 {
-    1e-6 * (gap.end_s - gap.start_s)
 }
 
 /// The optima from where they are: their noise has changed.
@@ -202,7 +150,7 @@ fn optimum(
 ) -> Result<Optimum> {
     /// Times that move poses across the collision settle within a few.
     const MOST_ROUNDS: usize = 6;
-    let mut solution = solved(scene, unknowns, gap, effort)?;
+    let mut solution = solved(scene, &free_problem(unknowns, &gap), effort)?;
     let mut gap = gap;
     if moves_times(scene) {
         for _ in 0..MOST_ROUNDS {
@@ -214,58 +162,10 @@ fn optimum(
                 break;
             }
             let from = solution.unknowns.clone();
-            solution = solved(scene, &from, gap, effort)?;
+            solution = solved(scene, &free_problem(&from, &gap), effort)?;
         }
     }
     Ok(Optimum { gap, covariance: Covariance::new(&total_information(&solution)), solution })
-}
-
-fn solved(
-    scene: &RefinedScene,
-    unknowns: &RefinedUnknowns,
-    gap: Gap,
-    effort: Effort,
-) -> Result<RefinedSolution> {
-    let problem = effort.problem(unknowns, &gap);
-    let solution = ffi::solve_refined(scene, &problem).map_err(solver_error)?;
-    match held_at_bounds(scene, &solution.unknowns) {
-        Some(held) => along_bounds(scene, &held, solution, gap, effort),
-        None => Ok(solution),
-    }
-}
-
-/// The scene with the parameters held that are at a bound; `None` where none is.
-fn held_at_bounds(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Option<RefinedScene> {
-    let mut held = scene.clone();
-    for (rule, value) in held.parameters.iter_mut().zip(&unknowns.parameters) {
-        rule.held |= *value <= rule.low || *value >= rule.high;
-    }
-    let is_new = |(rule, known): (&ParameterRule, &ParameterRule)| rule.held && !known.held;
-    held.parameters.iter().zip(&scene.parameters).any(is_new).then_some(held)
-}
-
-/// On from where a parameter met its bound: Ceres cuts whole steps short there, also of what could
-/// still move, and may take that for convergence.
-fn along_bounds(
-    scene: &RefinedScene,
-    held: &RefinedScene,
-    met: RefinedSolution,
-    gap: Gap,
-    effort: Effort,
-) -> Result<RefinedSolution> {
-    let problem = effort.problem(&met.unknowns, &gap);
-    let moved = ffi::solve_refined(held, &problem).map_err(solver_error)?;
-    if moved.cost >= met.cost {
-        return Ok(met);
-    }
-    let mut problem = free_problem(&moved.unknowns, &gap);
-    problem.most_iterations = 0;
-    Ok(RefinedSolution {
-        cost_initial: met.cost_initial,
-        iterations: met.iterations + moved.iterations,
-        converged: moved.converged,
-        ..ffi::solve_refined(scene, &problem).map_err(solver_error)?
-    })
 }
 
 /// The model at `unknowns`, with its Jacobian; nothing is optimised.
@@ -277,7 +177,7 @@ pub(super) fn evaluated(
     let mut problem = free_problem(unknowns, &gap);
     problem.most_iterations = 0;
     problem.with_jacobian = true;
-    ffi::solve_refined(scene, &problem).map_err(solver_error)
+    solve(scene, &problem)
 }
 
 fn total_information(solution: &RefinedSolution) -> DMatrix<f64> {

@@ -4,11 +4,11 @@
 
 use nalgebra::DVector;
 
+use super::along_bounds::{Effort, free_problem, solved};
 use super::layout::Layout;
-use super::optimum::{Optimum, free_problem, nearest};
+use super::optimum::{Optimum, nearest};
 use crate::Result;
-use crate::bridge::refined::ffi::{self, RefinedProblem, RefinedScene, RestitutionPin};
-use crate::reconstruct::solver_error;
+use crate::bridge::refined::ffi::{RefinedProblem, RefinedScene, RestitutionPin};
 use crate::scene::Gap;
 
 /// What can be held.
@@ -83,7 +83,7 @@ impl Profile<'_> {
         }
         let mut problem = free_problem(&unknowns, &self.gap(unknowns.collision_time_s));
         self.hold(&mut problem, held, value, shift);
-        let solution = ffi::solve_refined(self.scene, &problem).map_err(solver_error)?;
+        let solution = solved(self.scene, &problem, Effort::Whole)?;
         Ok((2.0 * (solution.cost - self.optimum.solution.cost)).max(0.0).sqrt())
     }
 

@@ -2,18 +2,10 @@
 
 use super::super::optimum::HOPELESS;
 use super::super::{Fitted, fit, instances};
+use super::{options, read};
+use crate::Result;
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
-use crate::{Result, Scene};
-
-fn read(file: &str) -> Scene {
-    Scene::read(format!("{}/{file}", env!("CARGO_MANIFEST_DIR"))).unwrap()
-}
-
-fn options(effects: &[&str]) -> RefinedOptions {
-    let effects = effects.iter().map(|text| EffectRequest::parse(text).unwrap()).collect();
-    RefinedOptions { effects, ..RefinedOptions::default() }
-}
 
 /// Two starts with friction leave the poses by hundreds of deviations, with the collision at the end of
 /// its segment; the others find the optimum.

@@ -1,5 +1,6 @@
 //! The C++ side of the refined solver: its derivatives, its curvature, and what it refuses.
 
+mod at_a_pose;
 mod derivatives;
 mod effects;
 mod input;
@@ -8,10 +9,13 @@ mod lost;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::model::across;
+use crate::Scene;
 use crate::bridge::refined::ffi::{
     RefinedBody, RefinedHold, RefinedMotion, RefinedPose, RefinedProblem, RefinedScene,
     RefinedUnknowns, RestitutionPin,
 };
+use crate::effect::EffectRequest;
+use crate::reconstruct::RefinedOptions;
 use crate::rigid_body::quaternion::{from_wxyz, to_wxyz};
 use crate::rigid_body::{principal_inertia_per_mass, rotate_freely};
 use crate::scene::Shape;
@@ -89,7 +93,6 @@ impl Case {
                 hold: RefinedHold { collision_time: false, log_mass_ratio: false },
                 restitution: RestitutionPin { value: 0.0, weight: 0.0 },
                 most_iterations: 50,
-                most_iterations_at_an_end: 50,
                 with_jacobian: false,
             },
         }
@@ -147,4 +150,13 @@ impl Case {
         edit(&mut case);
         case
     }
+}
+
+fn read(file: &str) -> Scene {
+    Scene::read(format!("{}/{file}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+fn options(effects: &[&str]) -> RefinedOptions {
+    let effects = effects.iter().map(|text| EffectRequest::parse(text).unwrap()).collect();
+    RefinedOptions { effects, ..RefinedOptions::default() }
 }
