@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::diagnose::{Together, Verdict};
+use smash::diagnose::{OtherNoise, Together, Verdict};
 use smash::files::{Output, print_bytes};
 use smash::improve::{Improvement, Rung};
 use smash::{Result, improve, improve_throws};
@@ -89,6 +89,9 @@ fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
         let scenes = if typed.has_several_scenes() { "SCENE SCENE …" } else { "SCENE" };
         next.push(format!("see what is left: smash diagnose {scenes}{with}"));
     }
+    if improvement.other_noise.is_some() {
+        next.insert(0, OtherNoise::MEND.to_string());
+    }
     typed.advice(&next)
 }
 
@@ -139,6 +142,9 @@ fn write_words(
             out,
             "Something is left that no effect explains; --try takes a law of your own."
         )?,
+    }
+    if let Some(noise) = &improvement.other_noise {
+        writeln!(out, "{}", noise.in_words())?;
     }
     for one in &improvement.together {
         writeln!(out, "{}", one.in_words())?;

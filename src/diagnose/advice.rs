@@ -1,6 +1,7 @@
 //! What to film, measure or type next.
 
 use super::diagnosis::{Diagnosis, Verdict};
+use super::other_noise::OtherNoise;
 use crate::Scene;
 use crate::effect::{Effect, catalogue};
 use crate::reconstruct::refined::{Acting, Fitted, Instance};
@@ -44,6 +45,9 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
                     .to_string(),
             );
         }
+    }
+    if diagnosis.other_noise.is_some() {
+        advice.insert(0, OtherNoise::MEND.to_string());
     }
     advice.retain(|line| !line.is_empty());
     advice

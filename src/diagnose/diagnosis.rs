@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::other_noise::OtherNoise;
 use super::rivals::OtherLaw;
 use super::together::Together;
 use super::unexplained::Unexplained;
@@ -50,6 +51,9 @@ pub struct Diagnosis {
     /// Of several throws: their restitution and mass ratio put together, with the effect that is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
+    /// Where χ² contradicts the stated noise and what is left looks random: the noise that the poses show.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub other_noise: Option<OtherNoise>,
     /// The answer in plain words.
     pub explanation: String,
     /// What to film or measure to tell candidates apart, and the command to type next.
@@ -155,6 +159,11 @@ impl CandidateReport {
 }
 
 impl Diagnosis {
+    /// What is missing, if that has a name.
+    pub fn missing(&self) -> Option<&CandidateReport> {
+        self.candidates.first().filter(|_| self.verdict == Verdict::Missing)
+    }
+
     /// The file's text: JSON, with a final newline.
     pub fn to_json(&self) -> String {
         let mut text = serde_json::to_string_pretty(self)

@@ -8,7 +8,7 @@ use crate::reconstruct::refined::Fitted;
 use crate::{Result, Scene};
 
 /// Noise alone leaves more in one scene of ten thousand.
-const IMPROBABLE: f64 = 1e-4;
+pub(super) const IMPROBABLE: f64 = 1e-4;
 
 /// How good a fit is.
 #[derive(Debug, Clone, Copy, PartialEq)]

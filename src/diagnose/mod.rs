@@ -17,6 +17,7 @@ mod goodness;
 mod held_out;
 mod leftover;
 mod misses;
+mod other_noise;
 mod own;
 mod pooled;
 mod ranking;
@@ -32,6 +33,7 @@ mod words;
 pub use diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
 };
+pub use other_noise::OtherNoise;
 pub use rivals::OtherLaw;
 pub use throws::diagnose_throws;
 pub use together::{ThrowValue, Together};
@@ -83,7 +85,16 @@ pub fn diagnose(
     let fitted = refined::fit(scene, options)?;
     let instances = all_candidates(scene, &fitted, further)?;
     let candidates = tried(scene, &fitted, &instances);
-    verdict::diagnosis(scene, &fitted, instances, candidates)
+    let other_noise = |best: &Fitted| {
+        OtherNoise::of(scene, options, best, |scene| {
+            let diagnosis = diagnose(scene, options, further)?;
+            let is_clear =
+                diagnosis.verdict != Verdict::UnknownEffect && !diagnosis.stays_structured;
+            Ok(is_clear
+                .then(|| diagnosis.missing().map(CandidateReport::label).into_iter().collect()))
+        })
+    };
+    verdict::diagnosis(scene, &fitted, instances, candidates, other_noise)
 }
 
 /// All candidates that can be fitted, the best first by Schwarz's criterion.

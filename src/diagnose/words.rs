@@ -15,14 +15,17 @@ use crate::words::{counted, significant, with_std};
 pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
     let model = if diagnosis.model.is_empty() { "The base model" } else { "The model" };
     let left: String = diagnosis.unexplained.iter().map(leftover).collect();
+    let noise = diagnosis.other_noise.as_ref().map(|noise| format!(" {}", noise.in_words()));
+    let noise = noise.unwrap_or_default();
     match (diagnosis.verdict, diagnosis.candidates.first()) {
-        (Verdict::NothingMissing, best) => nothing(model, diagnosis, best),
+        (Verdict::NothingMissing, best) => nothing(model, diagnosis, best) + &noise,
         (Verdict::UnknownEffect, best) => {
             let best = best.filter(|best| best.stands_out);
-            unknown(model, best, diagnosis.other_laws.first()) + &left
+            unknown(model, best, diagnosis.other_laws.first()) + &noise + &left
         }
         (Verdict::Missing, Some(best)) => {
             missing(best, pair, diagnosis.stays_structured)
+                + &noise
                 + &left
                 + &diagnosis.other_laws.first().map_or(String::new(), or_another)
         }
@@ -55,8 +58,11 @@ fn verdict_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
         (Verdict::UnknownEffect, _) => format!(
             "Many of the {count} throws are missed by more than their noise, and no effect that they \
              could share explains it alone.{} A body that rolls, slides or lies on another is in no flight: \
-             leave such poses out.",
-            nearest_of_throws(diagnosis)
+             leave such poses out.{}",
+            nearest_of_throws(diagnosis),
+            diagnosis.reduced_chi2.map_or("", |_| {
+                " Or the noise is larger than the scenes state (`noise`): left out, it is estimated."
+            })
         ),
         _ => format!(
             "{count} throws together show nothing that is missing.{} An effect weaker than the noise \

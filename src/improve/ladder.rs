@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnose::{OtherLaw, Together, Verdict, in_words, listed, telling_apart};
+use crate::diagnose::{OtherLaw, OtherNoise, Together, Verdict, in_words, listed, telling_apart};
 use crate::reconstruct::ParameterEstimate;
 use crate::{Reconstruction, Scene};
 
@@ -34,6 +34,10 @@ pub struct Improvement {
     /// of the ladder, or explains 95 % of what they do and more than any single one; the best first.
     #[serde(default)]
     pub other_laws: Vec<OtherLaw>,
+    /// Where χ² on the last rung contradicts the stated noise and what is left looks random: the noise that
+    /// the poses show.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub other_noise: Option<OtherNoise>,
     /// Of several throws: their restitution and mass ratio on the last rung, put together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
@@ -151,6 +155,7 @@ impl Improvement {
             verdict,
             result,
             other_laws: Vec::new(),
+            other_noise: None,
             together: Vec::new(),
         }
     }

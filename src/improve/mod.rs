@@ -10,7 +10,7 @@ pub use throws::improve_throws;
 
 use std::collections::BTreeMap;
 
-use crate::diagnose::{Verdict, held_out_rmse_m, reported};
+use crate::diagnose::{OtherNoise, Verdict, held_out_rmse_m, reported};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
 use crate::reconstruct::refined::{self, Fitted};
@@ -68,7 +68,13 @@ pub fn improve(
         (false, false) => Verdict::Missing,
     };
     let improvement = Improvement::new(scene, verdict, rungs, found.dropped, result.clone());
-    Ok(Improvement { other_laws: found.other_laws, ..improvement })
+    let best = &fits[fits.len() - 1];
+    let other_noise = OtherNoise::of(scene, options, best, |scene| {
+        let improvement = improve(scene, options, further)?;
+        let top = improvement.ladder.last().map_or(Vec::new(), |rung| rung.with.clone());
+        Ok((improvement.verdict != Verdict::UnknownEffect).then_some(top))
+    })?;
+    Ok(Improvement { other_laws: found.other_laws, other_noise, ..improvement })
 }
 
 /// A rung of the ladder that adds nothing yet.

@@ -119,6 +119,11 @@ impl Scene {
         self.noise
     }
 
+    /// The same poses, with no noise stated.
+    pub(crate) fn without_noise(&self) -> Scene {
+        Scene { noise: None, ..self.clone() }
+    }
+
     /// The camera, if stated.
     pub fn camera(&self) -> Option<&Camera> {
         self.camera.as_ref()

@@ -5,6 +5,7 @@ mod clean;
 mod command;
 mod exact;
 mod hidden;
+mod noise;
 mod objects;
 mod pairs;
 mod piped;
