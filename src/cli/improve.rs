@@ -92,6 +92,9 @@ fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
     if improvement.other_noise.is_some() {
         next.insert(0, OtherNoise::MEND.to_string());
     }
+    if let Some(shared) = &improvement.shared_errors {
+        next.insert(0, shared.mend());
+    }
     typed.advice(&next)
 }
 
@@ -145,6 +148,9 @@ fn write_words(
     }
     if let Some(noise) = &improvement.other_noise {
         writeln!(out, "{}", noise.in_words())?;
+    }
+    if let Some(shared) = &improvement.shared_errors {
+        writeln!(out, "{}", shared.in_words())?;
     }
     for one in &improvement.together {
         writeln!(out, "{}", one.in_words())?;

@@ -49,6 +49,9 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
     if diagnosis.other_noise.is_some() {
         advice.insert(0, OtherNoise::MEND.to_string());
     }
+    if let Some(shared) = &diagnosis.shared_errors {
+        advice.insert(0, shared.mend());
+    }
     advice.retain(|line| !line.is_empty());
     advice
 }

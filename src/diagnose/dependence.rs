@@ -34,7 +34,7 @@ pub(super) fn inflation(fitted: &Fitted) -> f64 {
 }
 
 /// The mean of all flights' and coordinates' correlation lengths, by their squares.
-fn waves(fitted: &Fitted) -> f64 {
+pub(super) fn waves(fitted: &Fitted) -> f64 {
     let residuals = &fitted.best().solution.residuals;
     let poses: Vec<&RefinedPose> =
         fitted.refined.bodies.iter().flat_map(|body| &body.poses).collect();
@@ -58,7 +58,7 @@ fn waves(fitted: &Fitted) -> f64 {
 }
 
 /// Each flight's residuals.
-fn flights(fitted: &Fitted) -> Vec<Range<usize>> {
+pub(super) fn flights(fitted: &Fitted) -> Vec<Range<usize>> {
     let mut flights = Vec::new();
     let mut first = 0;
     for body in &fitted.refined.bodies {

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::other_noise::OtherNoise;
 use super::rivals::OtherLaw;
+use super::shared_errors::SharedErrors;
 use super::together::Together;
 use super::unexplained::Unexplained;
 use crate::compare::ChannelTest;
@@ -54,6 +55,10 @@ pub struct Diagnosis {
     /// Where χ² contradicts the stated noise and what is left looks random: the noise that the poses show.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub other_noise: Option<OtherNoise>,
+    /// Where what is left comes in waves that fewer poses don't show: how far apart poses must be for their
+    /// errors to be their own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shared_errors: Option<SharedErrors>,
     /// The answer in plain words.
     pub explanation: String,
     /// What to film or measure to tell candidates apart, and the command to type next.

@@ -18,10 +18,12 @@ mod held_out;
 mod leftover;
 mod misses;
 mod other_noise;
+mod otherwise;
 mod own;
 mod pooled;
 mod ranking;
 mod rivals;
+mod shared_errors;
 mod swing;
 mod throws;
 mod throws_told;
@@ -35,6 +37,7 @@ pub use diagnosis::{
 };
 pub use other_noise::OtherNoise;
 pub use rivals::OtherLaw;
+pub use shared_errors::SharedErrors;
 pub use throws::diagnose_throws;
 pub use together::{ThrowValue, Together};
 pub use unexplained::{Form, Kind, Unexplained};
@@ -47,6 +50,7 @@ pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::{HeldOut, held_out_rmse_m};
 pub(crate) use leftover::Leftover;
+pub(crate) use otherwise::Otherwise;
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
 pub(crate) use rivals::rivals;
@@ -82,19 +86,25 @@ pub fn diagnose(
     options: &RefinedOptions,
     further: &[EffectRequest],
 ) -> Result<Diagnosis> {
+    let missing = |scene: &Scene| {
+        let diagnosis = diagnosed(scene, options, further, |_| Ok(Otherwise::default()))?;
+        let is_clear = diagnosis.verdict != Verdict::UnknownEffect && !diagnosis.stays_structured;
+        Ok(is_clear.then(|| diagnosis.missing().map(CandidateReport::label).into_iter().collect()))
+    };
+    diagnosed(scene, options, further, |best| Otherwise::of(scene, options, best, missing))
+}
+
+/// `otherwise`: what else may leave what the best model leaves.
+fn diagnosed(
+    scene: &Scene,
+    options: &RefinedOptions,
+    further: &[EffectRequest],
+    otherwise: impl FnOnce(&Fitted) -> Result<Otherwise>,
+) -> Result<Diagnosis> {
     let fitted = refined::fit(scene, options)?;
     let instances = all_candidates(scene, &fitted, further)?;
     let candidates = tried(scene, &fitted, &instances);
-    let other_noise = |best: &Fitted| {
-        OtherNoise::of(scene, options, best, |scene| {
-            let diagnosis = diagnose(scene, options, further)?;
-            let is_clear =
-                diagnosis.verdict != Verdict::UnknownEffect && !diagnosis.stays_structured;
-            Ok(is_clear
-                .then(|| diagnosis.missing().map(CandidateReport::label).into_iter().collect()))
-        })
-    };
-    verdict::diagnosis(scene, &fitted, instances, candidates, other_noise)
+    verdict::diagnosis(scene, &fitted, instances, candidates, otherwise)
 }
 
 /// All candidates that can be fitted, the best first by Schwarz's criterion.

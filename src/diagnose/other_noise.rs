@@ -60,11 +60,7 @@ impl OtherNoise {
     pub fn in_words(&self) -> String {
         let shown = both(self.position, self.orientation);
         let stated = both(self.stated_position, self.stated_orientation);
-        let missing = match self.missing.as_slice() {
-            [] => "nothing is missing".to_string(),
-            [one] => format!("{one} is all that is missing"),
-            all => format!("{} are all that is missing", all.join(" and ")),
-        };
+        let missing = are_missing(&self.missing);
         match self.position > self.stated_position {
             true => format!(
                 "Or the noise is larger than stated: what is left looks random, and with {shown} \
@@ -80,6 +76,15 @@ impl OtherNoise {
     /// What to do about it.
     pub const MEND: &str = "check the noise that SCENE states (`noise`): left out, it is \
                                    estimated from the poses";
+}
+
+/// `magnus@a is all that is missing`.
+pub(super) fn are_missing(labels: &[String]) -> String {
+    match labels {
+        [] => "nothing is missing".to_string(),
+        [one] => format!("{one} is all that is missing"),
+        all => format!("{} are all that is missing", all.join(" and ")),
+    }
 }
 
 /// Whether χ² is too large, or too small, for the stated noise.

@@ -4,7 +4,7 @@ use super::advice::{advice, unfitted};
 use super::candidates::is_own;
 use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
 use super::leftover::Leftover;
-use super::other_noise::OtherNoise;
+use super::otherwise::Otherwise;
 use super::ranking::{TELLS_APART, first, look_alikes, probabilities, rank};
 use super::rivals::{OtherLaw, lasting_push, rivals};
 use super::swing::swings;
@@ -23,14 +23,14 @@ const FIRSTS: usize = 3;
 /// An effect that leaves more than this share of what the model misses doesn't explain it.
 pub(super) const EXPLAINS: f64 = 0.5;
 
-/// The answer for `scene`, fitted, with its candidates in order. `other_noise`: what the noise may be
-/// besides, where a model leaves as much.
+/// The answer for `scene`, fitted, with its candidates in order. `otherwise`: what else may leave what a
+/// model leaves.
 pub(super) fn diagnosis(
     scene: &Scene,
     fitted: &Fitted,
     instances: Vec<Instance>,
     mut candidates: Vec<Candidate>,
-    other_noise: impl FnOnce(&Fitted) -> Result<Option<OtherNoise>>,
+    otherwise: impl FnOnce(&Fitted) -> Result<Otherwise>,
 ) -> Result<Diagnosis> {
     let result = reported(scene, fitted)?;
     let channels = channels(scene, &result)?;
@@ -96,6 +96,7 @@ pub(super) fn diagnosis(
         .filter(is_told)
         .map(|(_, index)| report(scene, &result, &candidates, index, (odds[index], inflation)))
         .collect::<Result<Vec<_>>>()?;
+    let otherwise = otherwise(named.map_or(fitted, |first| &first.fitted))?;
     let mut diagnosis = Diagnosis {
         schema: DIAGNOSIS_SCHEMA.to_string(),
         scene: scene.name().to_string(),
@@ -108,7 +109,8 @@ pub(super) fn diagnosis(
         stays_structured,
         unexplained,
         other_laws,
-        other_noise: other_noise(named.map_or(fitted, |first| &first.fitted))?,
+        other_noise: otherwise.noise,
+        shared_errors: otherwise.shared,
         together: Vec::new(),
         explanation: String::new(),
         advice: Vec::new(),

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use super::FALSE_ALARM;
 use super::diagnosis::{Agreement, CandidateReport, Diagnosis, Verdict};
+use super::other_noise::OtherNoise;
 use super::rivals::OtherLaw;
+use super::shared_errors::SharedErrors;
 use super::together::Together;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
@@ -15,17 +17,18 @@ use crate::words::{counted, significant, with_std};
 pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
     let model = if diagnosis.model.is_empty() { "The base model" } else { "The model" };
     let left: String = diagnosis.unexplained.iter().map(leftover).collect();
-    let noise = diagnosis.other_noise.as_ref().map(|noise| format!(" {}", noise.in_words()));
-    let noise = noise.unwrap_or_default();
+    let noise = diagnosis.other_noise.as_ref().map(OtherNoise::in_words);
+    let errors = noise.or(diagnosis.shared_errors.as_ref().map(SharedErrors::in_words));
+    let errors = errors.map_or(String::new(), |errors| format!(" {errors}"));
     match (diagnosis.verdict, diagnosis.candidates.first()) {
-        (Verdict::NothingMissing, best) => nothing(model, diagnosis, best) + &noise,
+        (Verdict::NothingMissing, best) => nothing(model, diagnosis, best) + &errors,
         (Verdict::UnknownEffect, best) => {
             let best = best.filter(|best| best.stands_out);
-            unknown(model, best, diagnosis.other_laws.first()) + &noise + &left
+            unknown(model, best, diagnosis.other_laws.first()) + &errors + &left
         }
         (Verdict::Missing, Some(best)) => {
             missing(best, pair, diagnosis.stays_structured)
-                + &noise
+                + &errors
                 + &left
                 + &diagnosis.other_laws.first().map_or(String::new(), or_another)
         }

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnose::{OtherLaw, OtherNoise, Together, Verdict, in_words, listed, telling_apart};
+use crate::diagnose::{
+    OtherLaw, OtherNoise, SharedErrors, Together, Verdict, in_words, listed, telling_apart,
+};
 use crate::reconstruct::ParameterEstimate;
 use crate::{Reconstruction, Scene};
 
@@ -38,6 +40,10 @@ pub struct Improvement {
     /// the poses show.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub other_noise: Option<OtherNoise>,
+    /// Where what is left on the last rung comes in waves that fewer poses don't show: how far apart poses
+    /// must be for their errors to be their own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shared_errors: Option<SharedErrors>,
     /// Of several throws: their restitution and mass ratio on the last rung, put together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
@@ -156,6 +162,7 @@ impl Improvement {
             result,
             other_laws: Vec::new(),
             other_noise: None,
+            shared_errors: None,
             together: Vec::new(),
         }
     }

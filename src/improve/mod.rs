@@ -10,7 +10,7 @@ pub use throws::improve_throws;
 
 use std::collections::BTreeMap;
 
-use crate::diagnose::{OtherNoise, Verdict, held_out_rmse_m, reported};
+use crate::diagnose::{Otherwise, Verdict, held_out_rmse_m, reported};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
 use crate::reconstruct::refined::{self, Fitted};
@@ -68,13 +68,17 @@ pub fn improve(
         (false, false) => Verdict::Missing,
     };
     let improvement = Improvement::new(scene, verdict, rungs, found.dropped, result.clone());
-    let best = &fits[fits.len() - 1];
-    let other_noise = OtherNoise::of(scene, options, best, |scene| {
-        let improvement = improve(scene, options, further)?;
-        let top = improvement.ladder.last().map_or(Vec::new(), |rung| rung.with.clone());
-        Ok((improvement.verdict != Verdict::UnknownEffect).then_some(top))
+    let otherwise = Otherwise::of(scene, options, &fits[fits.len() - 1], |scene| {
+        let found = search::best_model(scene, &refined::fit(scene, options)?, further)?;
+        let labels = found.steps.iter().map(|step| step.instance.label(scene)).collect();
+        Ok((!found.is_structured).then_some(labels))
     })?;
-    Ok(Improvement { other_laws: found.other_laws, other_noise, ..improvement })
+    Ok(Improvement {
+        other_laws: found.other_laws,
+        other_noise: otherwise.noise,
+        shared_errors: otherwise.shared,
+        ..improvement
+    })
 }
 
 /// A rung of the ladder that adds nothing yet.

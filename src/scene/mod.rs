@@ -124,6 +124,21 @@ impl Scene {
         Scene { noise: None, ..self.clone() }
     }
 
+    /// With one pose in `every`, outwards from `time_s`.
+    pub(crate) fn thinned(&self, every: usize, time_s: f64) -> Scene {
+        let mut scene = self.clone();
+        for body in &mut scene.bodies {
+            let before = body.observations.partition_point(|pose| pose.time_s < time_s);
+            let outwards = |index: usize| match index < before {
+                true => before - 1 - index,
+                false => index - before,
+            };
+            let mut index = 0..;
+            body.observations.retain(|_| index.next().is_some_and(|i| outwards(i) % every == 0));
+        }
+        scene
+    }
+
     /// The camera, if stated.
     pub fn camera(&self) -> Option<&Camera> {
         self.camera.as_ref()

@@ -9,6 +9,7 @@ mod noise;
 mod objects;
 mod pairs;
 mod piped;
+mod shared_errors;
 mod strange;
 mod stuck;
 mod swing;
