@@ -22,7 +22,7 @@ constexpr double kEffectStepS = 0.02;
 // Of one flight with effects: what takes more is a spin on its way beyond all numbers.
 constexpr double kMostEffectSteps = 2e4;
 // How much faster than at the start a body may turn with the start's steps.
-constexpr double kMuchFaster = 1.4;
+constexpr double kMuchFaster = 1.0 / 0.7;
 
 // Radians a step for orientations as exact as these: the error goes with the step's fourth power.
 double StepRad(const RefinedScene& scene) {
@@ -87,9 +87,14 @@ std::vector<int> FlightSteps::WithEffects(const Flight& flight, int fineness) co
   return steps;
 }
 
-bool FlightSteps::AreTooLong(const Flight& flight, const RefinedUnknowns& unknowns) const {
-  const double now = FastestSpins(scene_, unknowns)[flight.body][flight.is_after];
-  return now > kMuchFaster * fastest_[flight.body][flight.is_after];
+bool FlightSteps::AreTooLong(const RefinedUnknowns& unknowns) const {
+  const auto now = FastestSpins(scene_, unknowns);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    for (const std::size_t side : {0UL, 1UL}) {
+      if (now[i][side] > kMuchFaster * fastest_[i][side]) return true;
+    }
+  }
+  return false;
 }
 
 // The farther end of the segment that its collision is in.

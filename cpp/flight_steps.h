@@ -18,8 +18,8 @@ class FlightSteps {
   std::vector<int> Pairs(const Flight& flight) const;
   // Steps up to each pose of a flight with effects, `fineness` times as many as usual.
   std::vector<int> WithEffects(const Flight& flight, int fineness) const;
-  // Whether a body turns much faster than at the start, so that its steps are too long.
-  bool AreTooLong(const Flight& flight, const RefinedUnknowns& unknowns) const;
+  // Whether a body turns much faster than at the start.
+  bool AreTooLong(const RefinedUnknowns& unknowns) const;
 
  private:
   double StartOf(const Flight& flight) const;

@@ -113,8 +113,7 @@ class RefinedFit {
 
   // Whether a body turns much faster than at the start.
   bool IsTooCoarse(const RefinedUnknowns& unknowns) const {
-    return std::any_of(flights_.begin(), flights_.end(),
-                       [&](const Flight& flight) { return steps_.AreTooLong(flight, unknowns); });
+    return steps_.AreTooLong(unknowns);
   }
 
   const std::vector<Flight>& flights() const { return flights_; }

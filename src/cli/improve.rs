@@ -133,7 +133,7 @@ fn write_words(
     }
     // By name: values that several throws share stand, with all digits, in the commands.
     let added = improvement.ladder.iter().filter_map(|rung| rung.added.as_deref());
-    let added = added.collect::<Vec<_>>().join(" and ");
+    let added = each_once(added).join(" and ");
     match improvement.verdict {
         Verdict::NothingMissing => {
             writeln!(out, "Nothing is missing that these poses could show.")?
@@ -169,6 +169,22 @@ fn write_words(
         writeln!(out, "  {command}")?;
     }
     Ok(())
+}
+
+/// Each label once, with how often it comes.
+fn each_once<'a>(labels: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for label in labels {
+        match counts.iter_mut().find(|(known, _)| *known == label) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((label, 1)),
+        }
+    }
+    let in_words = |(label, count): (&str, usize)| match count {
+        1 => label.to_string(),
+        count => format!("{count} × {label}"),
+    };
+    counts.into_iter().map(in_words).collect()
 }
 
 /// A header, and a row for each rung.

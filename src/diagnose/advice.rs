@@ -2,6 +2,7 @@
 
 use super::diagnosis::{Diagnosis, Verdict};
 use super::other_noise::OtherNoise;
+use super::shared_errors::SharedErrors;
 use crate::Scene;
 use crate::effect::{Effect, catalogue};
 use crate::reconstruct::refined::{Acting, Fitted, Instance};
@@ -46,12 +47,11 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
             );
         }
     }
-    if diagnosis.other_noise.is_some() {
-        advice.insert(0, OtherNoise::MEND.to_string());
-    }
-    if let Some(shared) = &diagnosis.shared_errors {
-        advice.insert(0, shared.mend());
-    }
+    let noise = diagnosis.other_noise.as_ref().map(|_| OtherNoise::MEND.to_string());
+    let errors = noise.or(diagnosis.shared_errors.as_ref().map(SharedErrors::mend));
+    // What has a name stays first.
+    let place = if diagnosis.missing().is_some() { advice.len() } else { 0 };
+    errors.into_iter().for_each(|errors| advice.insert(place, errors));
     advice.retain(|line| !line.is_empty());
     advice
 }

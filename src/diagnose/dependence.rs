@@ -4,6 +4,8 @@
 
 use std::ops::Range;
 
+use nalgebra::{DMatrix, DVector};
+
 use super::Leftover;
 use crate::bridge::refined::ffi::RefinedPose;
 use crate::reconstruct::refined::Fitted;
@@ -35,6 +37,27 @@ pub(super) fn inflation(fitted: &Fitted) -> f64 {
 
 /// The mean of all flights' and coordinates' correlation lengths, by their squares.
 pub(super) fn waves(fitted: &Fitted) -> f64 {
+    mean_length(fitted, |series| series)
+}
+
+/// The same with a smooth curve taken out of each series, as a force that is missing leaves it: what errors
+/// share with their neighbours alone stays.
+pub(super) fn waves_beside_curves(fitted: &Fitted) -> f64 {
+    /// A force bends a path by t², and the fit takes what it can of that.
+    const DEGREE: usize = 4;
+    mean_length(fitted, |series| {
+        let middle = 0.5 * (series.len() as f64 - 1.0);
+        let powers = DMatrix::from_fn(series.len(), DEGREE + 1, |row, degree| {
+            (row as f64 / middle - 1.0).powi(degree as i32)
+        });
+        let basis = powers.qr().q();
+        let series = DVector::from_vec(series);
+        let curve = &basis * basis.tr_mul(&series);
+        (series - curve).as_slice().to_vec()
+    })
+}
+
+fn mean_length(fitted: &Fitted, rest: impl Fn(Vec<f64>) -> Vec<f64>) -> f64 {
     let residuals = &fitted.best().solution.residuals;
     let poses: Vec<&RefinedPose> =
         fitted.refined.bodies.iter().flat_map(|body| &body.poses).collect();
@@ -47,8 +70,12 @@ pub(super) fn waves(fitted: &Fitted) -> f64 {
                 _ => residuals[index].turn_rad[axis - 3] / poses[index].orientation_std_rad,
             });
             let series: Vec<f64> = series.collect();
+            if series.len() < SHORTEST {
+                continue;
+            }
+            let series = rest(series);
             let square: f64 = series.iter().map(|x| x * x).sum();
-            if series.len() >= SHORTEST && square > 0.0 {
+            if square > 0.0 {
                 lengths += square * correlation_length(&series);
                 squares += square;
             }

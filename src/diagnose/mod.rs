@@ -46,11 +46,12 @@ pub(crate) use advice::telling_apart;
 pub(crate) use best_of_throws::{alike, put_best_first, with_effect, with_own};
 pub(crate) use candidates::{Candidate, all_candidates, candidate, of_a_body};
 pub(crate) use dependence::{inflation_of, quasi_bic};
+pub(crate) use diagnosis::yes;
 pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::{HeldOut, held_out_rmse_m};
 pub(crate) use leftover::Leftover;
-pub(crate) use otherwise::Otherwise;
+pub(crate) use otherwise::{Explained, Otherwise};
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
 pub(crate) use rivals::rivals;
@@ -86,20 +87,27 @@ pub fn diagnose(
     options: &RefinedOptions,
     further: &[EffectRequest],
 ) -> Result<Diagnosis> {
-    let missing = |scene: &Scene| {
-        let diagnosis = diagnosed(scene, options, further, |_| Ok(Otherwise::default()))?;
+    let explained = |scene: &Scene| {
+        let mut best = None;
+        let diagnosis = diagnosed(scene, options, further, |fitted, _| {
+            best = Some(fitted.clone());
+            Otherwise::default()
+        })?;
         let is_clear = diagnosis.verdict != Verdict::UnknownEffect && !diagnosis.stays_structured;
-        Ok(is_clear.then(|| diagnosis.missing().map(CandidateReport::label).into_iter().collect()))
+        let missing = diagnosis.missing().map(CandidateReport::label).into_iter().collect();
+        Ok(best.filter(|_| is_clear).map(|fitted| Explained { missing, fitted }))
     };
-    diagnosed(scene, options, further, |best| Otherwise::of(scene, options, best, missing))
+    diagnosed(scene, options, further, |fitted, is_structured| {
+        Otherwise::of(scene, fitted, is_structured, explained)
+    })
 }
 
-/// `otherwise`: what else may leave what the best model leaves.
+/// `otherwise`: what else may leave what the best model leaves, more than noise if the second is so.
 fn diagnosed(
     scene: &Scene,
     options: &RefinedOptions,
     further: &[EffectRequest],
-    otherwise: impl FnOnce(&Fitted) -> Result<Otherwise>,
+    otherwise: impl FnOnce(&Fitted, bool) -> Otherwise,
 ) -> Result<Diagnosis> {
     let fitted = refined::fit(scene, options)?;
     let instances = all_candidates(scene, &fitted, further)?;
@@ -124,19 +132,12 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
     // Far from the null slopes foretell little: where none of these will do, another may, and where
     // the model is bent far, another may do better.
     let is_structured = |candidate: &Candidate| Goodness::by(&candidate.fitted, &[]).is_structured;
-    if is_far_off(fitted) || candidates.iter().all(is_structured) {
+    if fitted.is_far_off() || candidates.iter().all(is_structured) {
         let others = instances.iter().filter(|instance| !promising.contains(instance));
         candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
     }
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     candidates
-}
-
-/// Whether the poses are missed by so much that slopes foretell little; it shows only where noise is
-/// stated.
-fn is_far_off(fitted: &Fitted) -> bool {
-    const FAR: f64 = 10.0;
-    fitted.has_stated_noise() && fitted.chi2() > FAR * fitted.numbers()
 }
 
 /// The reconstruction of a fitted model, with covariance intervals.

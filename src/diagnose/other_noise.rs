@@ -1,17 +1,22 @@
-//! Noise that isn't as the scene states it: residuals that look random, but are too large or too small
-//! for the stated noise, tell of that as well as of an effect.
+//! Noise that isn't as the scene states it: residuals without order that are too large or too small for
+//! the stated noise tell of that as well as of an effect.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::goodness::IMPROBABLE;
-use super::reported;
-use crate::effect::EffectRequest;
-use crate::reconstruct::RefinedOptions;
-use crate::reconstruct::refined::{self, Fitted};
+use super::otherwise::Explained;
+use crate::reconstruct::refined::Fitted;
 use crate::words::significant;
 use crate::{Result, Scene};
+
+/// Noise within a tenth of what is stated is as stated: so few poses tell it no better.
+const AS_STATED: f64 = 0.1;
+/// The root mean square over what the median tells of it, beyond which a few poses make the noise.
+const HEAVY_TAILS: f64 = 1.5;
+/// The median of a normal deviate's size.
+const MEDIAN: f64 = 0.6745;
 
 /// The noise that the poses show by themselves, where χ² contradicts the stated one, and what is missing
 /// beside it.
@@ -19,7 +24,7 @@ use crate::{Result, Scene};
 pub struct OtherNoise {
     /// One σ of a position coordinate, m.
     pub position: f64,
-    /// One σ of a component of the rotation vector, rad; null when no orientation was fitted.
+    /// One σ of a component of the rotation vector, rad; null where orientations don't tell it.
     pub orientation: Option<f64>,
     /// What the scene states for `position`.
     pub stated_position: f64,
@@ -30,73 +35,89 @@ pub struct OtherNoise {
 }
 
 impl OtherNoise {
-    /// Of `scene`, whose best model leaves `fitted`. `missing`: what is missing from a scene that states no
-    /// noise; `None` where something is left over there, too.
-    pub(crate) fn of(
+    /// What to do about it.
+    pub const MEND: &str = "check the noise that the scene states (`noise`): left out, it is estimated \
+                            from the poses";
+
+    /// Of `scene`, whose best model leaves `fitted`. `None` where it isn't so, or where a few wrong poses
+    /// would be taken for noise.
+    pub(super) fn of(
         scene: &Scene,
-        options: &RefinedOptions,
         fitted: &Fitted,
-        missing: impl FnOnce(&Scene) -> Result<Option<Vec<String>>>,
+        explained: impl FnOnce(&Scene) -> Result<Option<Explained>>,
     ) -> Result<Option<OtherNoise>> {
         let Some(stated) = scene.noise().filter(|_| contradicts(fitted)) else { return Ok(None) };
-        let scene = scene.without_noise();
-        let Some(missing) = missing(&scene)? else { return Ok(None) };
-        let mut options = options.clone();
-        for label in &missing {
-            options.effects.push(EffectRequest::parse(label)?);
-        }
-        let shown = reported(&scene, &refined::fit(&scene, &options)?)?.noise;
-        let told = shown.filter(|noise| noise.estimated && noise.reason.is_none());
-        Ok(told.map(|noise| OtherNoise {
-            position: noise.position,
-            orientation: noise.orientation,
+        let Some(Explained { missing, mut fitted }) = explained(&scene.without_noise())? else {
+            return Ok(None);
+        };
+        fitted.settle()?;
+        let [position, orientation] = fitted.noise.estimates();
+        let told = position.filter(|_| !has_heavy_tails(&fitted));
+        Ok(told.map(|position| OtherNoise {
+            position,
+            orientation,
             stated_position: stated.position,
-            stated_orientation: noise.orientation.map(|_| stated.orientation),
+            stated_orientation: orientation.map(|_| stated.orientation),
             missing,
         }))
     }
 
-    /// In a sentence or two.
+    /// In a sentence.
     pub fn in_words(&self) -> String {
-        let shown = both(self.position, self.orientation);
-        let stated = both(self.stated_position, self.stated_orientation);
-        let missing = are_missing(&self.missing);
-        match self.position > self.stated_position {
-            true => format!(
-                "Or the noise is larger than stated: what is left looks random, and with {shown} \
-                 instead of {stated} {missing}."
-            ),
-            false => format!(
-                "The noise is smaller than stated: the poses scatter by {shown} instead of {stated}, \
-                 and with that {missing}."
-            ),
-        }
-    }
-
-    /// What to do about it.
-    pub const MEND: &str = "check the noise that SCENE states (`noise`): left out, it is \
-                                   estimated from the poses";
-}
-
-/// `magnus@a is all that is missing`.
-pub(super) fn are_missing(labels: &[String]) -> String {
-    match labels {
-        [] => "nothing is missing".to_string(),
-        [one] => format!("{one} is all that is missing"),
-        all => format!("{} are all that is missing", all.join(" and ")),
+        let orientations = self.orientation.zip(self.stated_orientation);
+        let ratios: Vec<f64> = std::iter::once((self.position, self.stated_position))
+            .chain(orientations)
+            .map(|(shown, stated)| shown / stated)
+            .collect();
+        let missing = match self.missing.as_slice() {
+            [] => "nothing is missing".to_string(),
+            [one] => format!("{one} is all that is missing"),
+            all => format!("{} are all that is missing", all.join(" and ")),
+        };
+        let digits = match ratios.iter().all(|ratio| (ratio - 1.0).abs() < AS_STATED) {
+            true => 3,
+            false => 2,
+        };
+        let shown = both(self.position, self.orientation, digits);
+        let stated = both(self.stated_position, self.stated_orientation, digits);
+        let grows = ratios.iter().any(|ratio| *ratio > 1.0 + AS_STATED);
+        let shrinks = ratios.iter().any(|ratio| *ratio < 1.0 - AS_STATED);
+        let how = match (grows, shrinks) {
+            (true, false) => "larger",
+            (false, true) => "smaller",
+            _ => "other",
+        };
+        format!("The noise may be {how} than stated: with {shown} instead of {stated} {missing}.")
     }
 }
 
-/// Whether χ² is too large, or too small, for the stated noise.
+/// Whether χ² is too large, or too small, for the stated noise: either in one scene of ten thousand.
 fn contradicts(fitted: &Fitted) -> bool {
     let spare = (fitted.numbers() - fitted.used()).max(1.0);
     ChiSquared::new(spare)
         .is_ok_and(|chi| f64::min(chi.sf(fitted.chi2()), chi.cdf(fitted.chi2())) < IMPROBABLE)
 }
 
+/// Whether a few residuals are much larger than the others.
+fn has_heavy_tails(fitted: &Fitted) -> bool {
+    let residuals = &fitted.best().solution.residuals;
+    let positions = residuals.iter().flat_map(|residual| residual.position_m);
+    let turns = residuals.iter().flat_map(|residual| residual.turn_rad);
+    [positions.collect::<Vec<f64>>(), turns.collect()].into_iter().any(|mut sizes| {
+        sizes.iter_mut().for_each(|size| *size = size.abs());
+        // Of orientations that nobody annotated.
+        sizes.retain(|size| *size > 0.0);
+        sizes.sort_by(f64::total_cmp);
+        let squares: f64 = sizes.iter().map(|size| size * size).sum();
+        let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        (squares / sizes.len() as f64).sqrt() > HEAVY_TAILS * median / MEDIAN
+    })
+}
+
 /// `2.0 mm and 0.57°`.
-fn both(position_m: f64, orientation_rad: Option<f64>) -> String {
-    let turn = orientation_rad
-        .map_or(String::new(), |angle| format!(" and {}°", significant(angle.to_degrees(), 2)));
-    format!("{} mm{turn}", significant(1e3 * position_m, 2))
+fn both(position_m: f64, orientation_rad: Option<f64>, digits: usize) -> String {
+    let turn = orientation_rad.map_or(String::new(), |angle| {
+        format!(" and {}°", significant(angle.to_degrees(), digits))
+    });
+    format!("{} mm{turn}", significant(1e3 * position_m, digits))
 }

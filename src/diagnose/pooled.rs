@@ -76,6 +76,8 @@ impl PooledCandidate {
                 stds: self.stds,
                 agreement: self.agreement,
                 scatter: self.scatter,
+                // The better of two ways.
+                p_value: (2.0 * apart.p_value).min(1.0),
                 ..apart
             },
             false => self,

@@ -30,7 +30,7 @@ pub(super) fn diagnosis(
     fitted: &Fitted,
     instances: Vec<Instance>,
     mut candidates: Vec<Candidate>,
-    otherwise: impl FnOnce(&Fitted) -> Result<Otherwise>,
+    otherwise: impl FnOnce(&Fitted, bool) -> Otherwise,
 ) -> Result<Diagnosis> {
     let result = reported(scene, fitted)?;
     let channels = channels(scene, &result)?;
@@ -96,7 +96,10 @@ pub(super) fn diagnosis(
         .filter(is_told)
         .map(|(_, index)| report(scene, &result, &candidates, index, (odds[index], inflation)))
         .collect::<Result<Vec<_>>>()?;
-    let otherwise = otherwise(named.map_or(fitted, |first| &first.fitted))?;
+    let otherwise = match named {
+        Some(first) => otherwise(&first.fitted, stays_structured),
+        None => otherwise(fitted, verdict == Verdict::UnknownEffect),
+    };
     let mut diagnosis = Diagnosis {
         schema: DIAGNOSIS_SCHEMA.to_string(),
         scene: scene.name().to_string(),
@@ -156,7 +159,9 @@ fn second(
     let firsts = candidates.iter().filter(|candidate| candidate.stands_out()).take(FIRSTS);
     let mut pairs: Vec<(f64, String, bool)> = Vec::new();
     for first in firsts {
-        let seconds = tried(scene, &first.fitted, instances);
+        let own = first.instance().label(scene);
+        let others = instances.iter().filter(|one| one.is_of_a_moment() || one.label(scene) != own);
+        let seconds = tried(scene, &first.fitted, &others.cloned().collect::<Vec<_>>());
         let Some(second) = seconds.iter().find(|second| second.stands_out()) else { continue };
         let explains = Leftover::of(scene, &second.fitted).is_ok_and(|rest| !rest.is_structured());
         let label =

@@ -61,6 +61,16 @@ pub fn find(name_or_path: &str) -> Result<Cow<'static, Effect>> {
     Err(Error::new(ErrorKind::Invalid, problem).mend(mend))
 }
 
+/// That an effect is the catalogue's, or has a name of its own.
+pub(super) fn check_is_told_apart(effect: &Effect) -> Result<()> {
+    if catalogue().iter().any(|known| known.name == effect.name && known != effect) {
+        let problem = format!("is {}, which is the catalogue's", quoted(&effect.name));
+        let mend = "give yours another name: answers tell effects by it";
+        return Err(Error::invalid("name", problem).mend(mend));
+    }
+    Ok(())
+}
+
 pub(super) fn is_path(text: &str) -> bool {
     text == "-" || text.ends_with(".toml") || text.contains(['/', std::path::MAIN_SEPARATOR])
 }

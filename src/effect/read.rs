@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
+use super::catalogue::check_is_told_apart;
 use super::file::EffectFile;
 use super::law::{law, names_in};
 use super::parameters::{check_name, known_parameters, parameter};
@@ -32,6 +33,7 @@ impl Effect {
         let text = read_text_up_to(LARGEST_FILE_BYTES, path, "an effect is a page of text")?;
         let name = display_name(path, "standard input");
         let effect = Effect::parse(&text, &name)?;
+        check_is_told_apart(&effect).map_err(|error| error.in_file(name.clone()))?;
         Ok(Effect { file: (path != Path::new("-")).then_some(name), ..effect })
     }
 

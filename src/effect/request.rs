@@ -7,8 +7,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::catalogue::check_is_told_apart;
 use super::request_file::RequestFile;
-use super::{Effect, Parameter, catalogue, find};
+use super::{Effect, Parameter, find};
 use crate::words::{did_you_mean, limit, quoted};
 use crate::{Error, ErrorKind, Result};
 
@@ -80,13 +81,7 @@ impl EffectRequest {
             return Err(in_request("the body's name is missing", "write it after `@`"));
         }
         let effect = find(name)?;
-        if catalogue().iter().any(|known| known.name == effect.name && *known != effect) {
-            let problem = format!("its name, {}, is the catalogue's", quoted(&effect.name));
-            return Err(in_request(
-                &problem,
-                "give yours another name: answers tell effects by it",
-            ));
-        }
+        check_is_told_apart(&effect)?;
         let mut fixed = BTreeMap::new();
         for setting in values.map(settings).unwrap_or_default() {
             let Some((name, value)) = setting.split_once('=') else {

@@ -63,7 +63,7 @@ pub struct Rung {
     #[serde(default)]
     pub parameters: BTreeMap<String, ParameterEstimate>,
     /// Whether several throws have the same parameters of that effect; else each has its own.
-    #[serde(default = "yes")]
+    #[serde(default = "crate::diagnose::yes")]
     pub is_shared: bool,
     /// `NAME@BODY` of the effects that the poses can't tell from it, with all others of the ladder.
     #[serde(default)]
@@ -85,10 +85,6 @@ pub struct Rung {
     pub restitution: Option<f64>,
 }
 
-fn yes() -> bool {
-    true
-}
-
 /// An effect, and how large it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EffectEstimate {
@@ -99,6 +95,25 @@ pub struct EffectEstimate {
 }
 
 impl Rung {
+    /// One that adds nothing yet, and knows nothing but its error in position, m.
+    pub(super) fn of(position_rmse: f64) -> Rung {
+        Rung {
+            added: None,
+            with: Vec::new(),
+            p_value: None,
+            parameters: BTreeMap::new(),
+            is_shared: true,
+            indistinguishable_from: Vec::new(),
+            look_alikes: Vec::new(),
+            position_rmse,
+            orientation_rmse: None,
+            reduced_chi2: None,
+            heldout_position_rmse: None,
+            mass_ratio: None,
+            restitution: None,
+        }
+    }
+
     /// What it adds, how large that is, and what the poses can't tell it from; `None` of the first rung.
     pub fn in_words(&self) -> Option<String> {
         let added = match self.is_shared {

@@ -8,9 +8,7 @@ mod throws;
 pub use ladder::{EffectEstimate, IMPROVEMENT_SCHEMA, Improvement, Rung};
 pub use throws::improve_throws;
 
-use std::collections::BTreeMap;
-
-use crate::diagnose::{Otherwise, Verdict, held_out_rmse_m, reported};
+use crate::diagnose::{Explained, Otherwise, Verdict, held_out_rmse_m, reported};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
 use crate::reconstruct::refined::{self, Fitted};
@@ -68,11 +66,11 @@ pub fn improve(
         (false, false) => Verdict::Missing,
     };
     let improvement = Improvement::new(scene, verdict, rungs, found.dropped, result.clone());
-    let otherwise = Otherwise::of(scene, options, &fits[fits.len() - 1], |scene| {
+    let otherwise = Otherwise::of(scene, &fits[fits.len() - 1], found.is_structured, |scene| {
         let found = search::best_model(scene, &refined::fit(scene, options)?, further)?;
-        let labels = found.steps.iter().map(|step| step.instance.label(scene)).collect();
-        Ok((!found.is_structured).then_some(labels))
-    })?;
+        let missing = found.steps.iter().map(|step| step.instance.label(scene)).collect();
+        Ok((!found.is_structured).then_some(Explained { missing, fitted: found.fitted }))
+    });
     Ok(Improvement {
         other_laws: found.other_laws,
         other_noise: otherwise.noise,
@@ -84,18 +82,11 @@ pub fn improve(
 /// A rung of the ladder that adds nothing yet.
 fn rung(fitted: &Fitted, result: &Reconstruction) -> Rung {
     Rung {
-        added: None,
-        with: Vec::new(),
-        p_value: None,
-        parameters: BTreeMap::new(),
-        is_shared: true,
-        indistinguishable_from: Vec::new(),
-        look_alikes: Vec::new(),
-        position_rmse: result.fit.position_rmse,
         orientation_rmse: result.fit.orientation_rmse,
         reduced_chi2: result.fit.reduced_chi2,
         heldout_position_rmse: held_out_rmse_m(fitted),
         mass_ratio: result.mass_ratio.as_ref().and_then(|estimate| estimate.value),
         restitution: result.restitution.value,
+        ..Rung::of(result.fit.position_rmse)
     }
 }

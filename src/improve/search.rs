@@ -29,6 +29,7 @@ pub(super) struct Step {
 /// The best model.
 pub(super) struct Found {
     pub(super) steps: Vec<Step>,
+    pub(super) fitted: Fitted,
     /// Labels of effects that were added on the way and became superfluous.
     pub(super) dropped: Vec<String>,
     /// Whether it leaves more than noise.
@@ -65,9 +66,15 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
         let mut next: Vec<Hypothesis> = Vec::new();
         for (hypothesis, candidates) in &mut ahead {
             candidates.sort_by(|a, b| quasi(a, inflation).total_cmp(&quasi(b, inflation)));
-            let good = (0..candidates.len()).filter(|&index| candidates[index].stands_out());
+            let good = (0..candidates.len()).filter(|&index| {
+                // Each hypothesis had its chances.
+                candidates[index].stands_out()
+                    && climbing.len() as f64 * candidates[index].evidence.p_value < FALSE_ALARM
+            });
             let good = good.take(HYPOTHESES);
-            next.extend(good.map(|index| hypothesis.extended(candidates, index, inflation)));
+            next.extend(
+                good.map(|index| hypothesis.extended(candidates, index, climbing.len(), inflation)),
+            );
         }
         next.sort_by(|a, b| a.quasi(inflation).total_cmp(&b.quasi(inflation)));
         let mut sets = Vec::new();
@@ -95,7 +102,13 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
     let (best, dropped) = without_superfluous(scene, base, best, further)?;
     if best.steps.is_empty() {
         let is_structured = Goodness::of(scene, base)?.is_structured;
-        return Ok(Found { steps: best.steps, dropped, is_structured, other_laws: Vec::new() });
+        return Ok(Found {
+            steps: best.steps,
+            fitted: best.fitted,
+            dropped,
+            is_structured,
+            other_laws: Vec::new(),
+        });
     }
     let tried = all_candidates(scene, base, further)?;
     let mut other_laws = rivals(scene, base, tried.len())?;
@@ -108,17 +121,24 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
     });
     let is_beaten = other_laws.iter().any(|law| law.bic < best.bic - TELLS_APART);
     let is_structured = is_beaten || Leftover::of(scene, &best.fitted)?.is_structured();
-    Ok(Found { steps: best.steps, dropped, is_structured, other_laws })
+    Ok(Found { steps: best.steps, fitted: best.fitted, dropped, is_structured, other_laws })
 }
 
 impl Hypothesis {
-    /// With the candidate `index` more, where differences count for less by `inflation`.
-    fn extended(&self, candidates: &[Candidate], index: usize, inflation: f64) -> Hypothesis {
+    /// With the candidate `index` more, one of as many hypotheses that had them, where differences count for
+    /// less by `inflation`.
+    fn extended(
+        &self,
+        candidates: &[Candidate],
+        index: usize,
+        hypotheses: usize,
+        inflation: f64,
+    ) -> Hypothesis {
         let candidate = &candidates[index];
         let alike = look_alikes(candidates, index, inflation).into_iter();
         let step = Step {
             instance: candidate.instance().clone(),
-            p_value: candidate.evidence.p_value,
+            p_value: (hypotheses as f64 * candidate.evidence.p_value).min(1.0),
             look_alikes: alike.map(|other| candidates[other].instance().clone()).collect(),
         };
         let steps = self.steps.iter().cloned().chain([step]).collect();

@@ -150,18 +150,9 @@ fn rung(throws: &[Throw]) -> Result<Rung> {
     };
     let position = rms(results.iter().map(|result| Some(result.fit.position_rmse)).collect());
     Ok(Rung {
-        added: None,
-        with: Vec::new(),
-        p_value: None,
-        parameters: BTreeMap::new(),
-        is_shared: true,
-        indistinguishable_from: Vec::new(),
-        look_alikes: Vec::new(),
-        position_rmse: position.unwrap_or(0.0),
         orientation_rmse: rms(results.iter().map(|r| r.fit.orientation_rmse).collect()),
         reduced_chi2: reduced_chi2(throws),
         heldout_position_rmse: rms(throws.iter().map(|t| held_out_rmse_m(&t.fitted)).collect()),
-        mass_ratio: None,
-        restitution: None,
+        ..Rung::of(position.unwrap_or(0.0))
     })
 }

@@ -37,7 +37,7 @@ pub(super) fn free_problem(unknowns: &RefinedUnknowns, gap: &Gap) -> RefinedProb
 }
 
 /// The optimum of a problem. Where the collision time meets an end of its segment, or a parameter a
-/// bound, that is held and the rest goes on; then the time is let go again, and may leave the end now.
+/// bound, that is held and the rest goes on; then all is let go again: the time may leave the end now.
 pub(super) fn solved(
     scene: &RefinedScene,
     problem: &RefinedProblem,
@@ -47,7 +47,8 @@ pub(super) fn solved(
     let gap = Gap { start_s: problem.earliest_s, end_s: problem.latest_s };
     let mut best = solve(scene, problem)?;
     for _ in 0..MOST_ROUNDS {
-        let holds_time = effort == Effort::Whole && is_at_an_end(gap, &best);
+        let holds_time =
+            effort == Effort::Whole && !problem.hold.collision_time && is_at_an_end(gap, &best);
         let Some(along) = along_bounds(scene, problem, &best, holds_time)? else { break };
         best = along;
         if !holds_time {
@@ -91,7 +92,10 @@ fn along_bounds(
     bound.hold.collision_time |= holds_time;
     let moved = solve(held.as_ref().unwrap_or(scene), &bound)?;
     if moved.cost >= met.cost {
-        return Ok(Some(RefinedSolution { converged: moved.converged, ..met.clone() }));
+        return Ok(Some(RefinedSolution {
+            converged: met.converged || moved.converged,
+            ..met.clone()
+        }));
     }
     Ok(Some(RefinedSolution {
         cost_initial: met.cost_initial,

@@ -273,6 +273,13 @@ impl Fitted {
         positions(&self.refined, solution).0 + turns(&self.refined, solution).0
     }
 
+    /// Whether the poses are missed by so much that slopes foretell little; it shows only where noise is
+    /// stated.
+    pub(crate) fn is_far_off(&self) -> bool {
+        const FAR: f64 = 10.0;
+        self.has_stated_noise() && self.chi2() > FAR * self.numbers()
+    }
+
     /// Whether the noise was stated.
     pub(crate) fn has_stated_noise(&self) -> bool {
         self.stated.is_some()

@@ -41,6 +41,15 @@ impl KnownNoise {
         KnownNoise { value, position_dof: None, orientation_dof: None }
     }
 
+    /// One σ of positions and of orientations, where their residuals tell it.
+    pub(crate) fn estimates(&self) -> [Option<f64>; 2] {
+        let told = |dof: Option<f64>, value| dof.filter(|dof| *dof > LEAST_SPARE).map(|_| value);
+        [
+            told(self.position_dof, self.value.position),
+            told(self.orientation_dof, self.value.orientation),
+        ]
+    }
+
     /// From what each channel's residuals say, with the spare numbers that they say it by.
     pub(super) fn estimated(
         scene: &RefinedScene,

@@ -63,12 +63,10 @@ pub(super) fn without_a_pose(
 /// Whether a fit has lost its way: what is missing alone hardly leaves so much. Where the noise isn't
 /// stated only turns tell: a spin that has wrapped is what leads astray.
 fn is_lost(nested: &Fitted) -> bool {
-    /// Of what noise leaves.
-    const FAR: f64 = 10.0;
     /// More than an annotator is ever off.
     const LARGE_RAD: f64 = 0.2;
     match nested.has_stated_noise() {
-        true => nested.chi2() > FAR * nested.numbers(),
+        true => nested.is_far_off(),
         false => nested.noise.value.orientation > LARGE_RAD,
     }
 }

@@ -35,7 +35,7 @@ fn a_clean_scene_with_too_small_a_noise_may_have_a_larger_one() {
         let noise = diagnosis.other_noise.unwrap();
         assert_shown(&noise, 0.5);
         assert!(noise.missing.is_empty(), "{noise:?}");
-        assert!(diagnosis.explanation.contains("Or the noise is larger than stated"));
+        assert!(diagnosis.explanation.contains("The noise may be larger than stated"));
         assert!(
             diagnosis.advice[0].contains("left out, it is estimated"),
             "{:?}",
@@ -80,4 +80,61 @@ fn a_noise_that_is_stated_rightly_is_left_alone() {
         let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
         assert_eq!(improvement.other_noise, None);
     }
+}
+
+/// A law of the user's own that was tried, too.
+#[test]
+fn beside_a_misstated_noise_a_law_of_ones_own_is_told() {
+    let law = format!("{}/examples/effects/tether.toml", env!("CARGO_MANIFEST_DIR"));
+    let anchor: &[f64] = &[0.3, 2.2, -0.4];
+    let strength: [(&str, &[f64]); 3] =
+        [("stiffness", &[1.0]), ("length", &[0.9]), ("anchor", anchor)];
+    let scene = with(boxes(3), &[effect(&law, Some("a"), &strength)]).scene;
+    let further = requests(&[format!("{law}@a:anchor=[0.3,2.2,-0.4]")]);
+    let scene = stating(&scene, 0.5);
+    let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &further).unwrap();
+    let noise = diagnosis.other_noise.expect(&diagnosis.explanation);
+    assert_eq!(noise.missing, ["tether@a"], "{}", diagnosis.explanation);
+    assert_shown(&noise, 0.5);
+}
+
+/// A ball whose orientation nobody sees tells the noise of its positions.
+#[test]
+fn a_ball_s_noise_is_told_too() {
+    let scene = stating(&with(plain_balls(36), &[]).scene, 0.5);
+    let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
+    let noise = diagnosis.other_noise.expect(&diagnosis.explanation);
+    assert!((noise.position / noise.stated_position - 2.0).abs() < 0.4, "{noise:?}");
+    assert_eq!((noise.orientation, noise.stated_orientation), (None, None));
+}
+
+/// Of two channels one is misstated.
+#[test]
+fn the_words_tell_which_way_the_noise_is_off() {
+    let simulation = with(boxes(37), &[]);
+    for (position, orientation, how) in
+        [(1.0, 0.3, "larger"), (0.5, 4.0, "other"), (1.0, 8.0, "smaller")]
+    {
+        let mut file = simulation.scene.to_file();
+        file.noise = Some(Noise {
+            position: position * NOISE.position,
+            orientation: orientation * NOISE.orientation,
+        });
+        let scene = Scene::from_file(file).unwrap();
+        let told = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap().explanation;
+        assert!(told.contains(&format!("noise may be {how} than stated")), "{how}: {told}");
+    }
+}
+
+/// A few poses far off are no noise.
+#[test]
+fn wrong_poses_are_not_taken_for_noise() {
+    let mut file = with(boxes(38), &[]).scene.to_file();
+    let poses = file.bodies[0].observations.as_mut().unwrap();
+    for (index, shift) in [(1, 0.05), (4, -0.06), (8, 0.04)] {
+        poses[index].position[0] += shift;
+    }
+    let scene = Scene::from_file(file).unwrap();
+    let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
+    assert_eq!(improvement.other_noise, None);
 }

@@ -82,3 +82,16 @@ fn a_force_is_no_error_of_the_poses() {
     );
     assert_eq!(told.shared_errors, None, "{}", told.explanation);
 }
+
+/// Independent noise makes no waves, beside a force that is too weak to be told either.
+#[test]
+fn a_weak_force_beside_independent_noise_is_no_shared_error() {
+    let law = format!("{}/examples/effects/coriolis.toml", env!("CARGO_MANIFEST_DIR"));
+    for seed in 50..54 {
+        let coriolis = effect(&law, None, &[("turning", &[0.004, -0.004, 0.004])]);
+        let mut spec = boxes(seed);
+        spec.observations = every_frame();
+        let told = diagnosis(&with(spec, &[coriolis]).scene);
+        assert_eq!(told.shared_errors, None, "{seed}: {}", told.explanation);
+    }
+}
