@@ -117,6 +117,12 @@ impl Instance {
         self.is_of_a_pose() || self.effect.laws.iter().any(|(hook, _)| *hook == Hook::EventTime)
     }
 
+    /// Whether it acts all along the flights, or is a property of the objects: not at the contact, nor at a
+    /// moment.
+    pub(super) fn is_in_flight(&self) -> bool {
+        self.effect.scope != Scope::Contact && self.scan().is_none()
+    }
+
     /// Whether all parameters are known, and do nothing.
     pub(crate) fn is_held_at_null(&self) -> bool {
         let held = |p: &Parameter| self.fixed.get(&p.name) == Some(&p.null);

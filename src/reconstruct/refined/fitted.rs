@@ -6,12 +6,13 @@ use std::time::Instant;
 
 use super::acting::{Acting, Instance};
 use super::approach::approached;
+use super::found_again::found_again;
 use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
 use super::noise::{
     KnownNoise, ROUGHLY_SETTLED, SETTLED, least_beside, positions, settle_noise, turns,
 };
-use super::optimum::{Optimum, evaluated, nested_optimum, optima_from};
+use super::optimum::{Optimum, evaluated, nested_optimum, optima_from, sort};
 use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
 use super::solve::{Solved, solve};
@@ -123,6 +124,11 @@ impl Fitted {
             },
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
+        if self.is_lost() && fitted.is_lost() && acting.instance.is_in_flight() {
+            let starts = found_again(self, scene, &fitted.refined, &acting).unwrap_or_default();
+            fitted.optima.extend(optima_from(&fitted.refined, &starts).unwrap_or_default());
+            sort(&mut fitted.optima);
+        }
         fitted.acting.push(acting);
         Ok(fitted)
     }
@@ -278,6 +284,17 @@ impl Fitted {
     pub(crate) fn is_far_off(&self) -> bool {
         const FAR: f64 = 10.0;
         self.has_stated_noise() && self.chi2() > FAR * self.numbers()
+    }
+
+    /// Whether the fit has lost its way: what is missing alone hardly leaves so much. Where the noise isn't
+    /// stated only turns tell: a spin that has wrapped is what leads astray.
+    pub(super) fn is_lost(&self) -> bool {
+        /// More than an annotator is ever off.
+        const LARGE_RAD: f64 = 0.2;
+        match self.has_stated_noise() {
+            true => self.is_far_off(),
+            false => self.noise.value.orientation > LARGE_RAD,
+        }
     }
 
     /// Whether the noise was stated.

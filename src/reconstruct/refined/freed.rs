@@ -88,9 +88,8 @@ pub(super) fn freed(
 
 /// The optimum of `nested` where any jump is possible, and how the bodies leave it.
 fn freed_optimum(nested: &Fitted, scene: &Scene) -> Result<(Start, Vec<Leaving>)> {
-    let text = if scene.plane().is_some() { FREE_JUMP } else { FREE_SPIN };
     let mut free = nested.clone();
-    for instance in possible(scene, &Effect::parse(text, "free_jump")?) {
+    for instance in possible(scene, &free_jump(scene)?) {
         free = free.with_quickly(scene, &instance)?;
     }
     let best = free.best();
@@ -98,13 +97,19 @@ fn freed_optimum(nested: &Fitted, scene: &Scene) -> Result<(Start, Vec<Leaving>)
     Ok(((best.solution.unknowns.clone(), best.gap), launched.iter().map(leaving).collect()))
 }
 
-fn leaving(launched: &RefinedLaunch) -> Leaving {
+/// The effect of any jump that the contact itself can't make.
+pub(super) fn free_jump(scene: &Scene) -> Result<Effect> {
+    let text = if scene.plane().is_some() { FREE_JUMP } else { FREE_SPIN };
+    Effect::parse(text, "free_jump")
+}
+
+pub(super) fn leaving(launched: &RefinedLaunch) -> Leaving {
     Leaving { velocity: launched.velocity_after.into(), spin: launched.spin_after.into() }
 }
 
 /// Contact, impulse and parameters for which the bodies leave as `wanted`, as nearly as may be, by
 /// damped Gauss-Newton steps.
-fn same_jump(
+pub(super) fn same_jump(
     refined: &RefinedScene,
     acting: &Acting,
     mut unknowns: RefinedUnknowns,

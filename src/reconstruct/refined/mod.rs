@@ -14,6 +14,7 @@ mod approach;
 mod covariance;
 mod fitted;
 mod flown;
+mod found_again;
 mod freed;
 mod gain;
 mod layout;

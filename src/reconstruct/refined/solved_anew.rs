@@ -41,7 +41,7 @@ pub(super) fn without_a_pose(
     place: usize,
 ) -> Vec<Start> {
     let times_s = points(scene, &acting.instance);
-    if times_s.len() > FEW_POSES || !is_lost(nested) {
+    if times_s.len() > FEW_POSES || !nested.is_lost() {
         return Vec::new();
     }
     let mut solved: Vec<SolvedAnew> = times_s
@@ -58,17 +58,6 @@ pub(super) fn without_a_pose(
         .collect();
     solved.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     solved.into_iter().take(MOST_POINTS).map(|solved| solved.start).collect()
-}
-
-/// Whether a fit has lost its way: what is missing alone hardly leaves so much. Where the noise isn't
-/// stated only turns tell: a spin that has wrapped is what leads astray.
-fn is_lost(nested: &Fitted) -> bool {
-    /// More than an annotator is ever off.
-    const LARGE_RAD: f64 = 0.2;
-    match nested.has_stated_noise() {
-        true => nested.is_far_off(),
-        false => nested.noise.value.orientation > LARGE_RAD,
-    }
 }
 
 struct SolvedAnew {

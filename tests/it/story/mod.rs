@@ -11,6 +11,7 @@ mod pairs;
 mod piped;
 mod shared_errors;
 mod strange;
+mod strong;
 mod stuck;
 mod swing;
 mod throws;

@@ -1,0 +1,104 @@
+//! Starts for an effect in flight where the fit with it has lost its way: the model without it was bent so
+//! far that rotations wrapped. Free of the contact, each flight finds its own spin and all of them the
+//! effect; then comes the contact that makes the same jump.
+
+use nalgebra::Vector3;
+
+use super::acting::{Acting, possible};
+use super::fitted::Fitted;
+use super::freed::{free_jump, leaving, same_jump};
+use super::optimum::{Optimum, optima_from};
+use super::parabolas::Parabolas;
+use super::start::{Leaving, freed_candidates};
+use super::starts::Start;
+use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns, launch};
+use crate::reconstruct::solver_error;
+use crate::{Result, Scene};
+
+/// Segments, and pairs of flights in each, that are tried.
+const MOST_SEGMENTS: usize = 2;
+const MOST_TURNS: usize = 2;
+/// How many times less sure positions are, at first and then.
+const LOOSER: [f64; 2] = [1000.0, 30.0];
+
+/// The starts of `nested` with `acting` added, which `refined` holds already.
+pub(super) fn found_again(
+    nested: &Fitted,
+    scene: &Scene,
+    refined: &RefinedScene,
+    acting: &Acting,
+) -> Result<Vec<Start>> {
+    let mut free = refined.clone();
+    let jumps = possible(scene, &free_jump(scene)?);
+    let jumps: Vec<Acting> = jumps.iter().map(|jump| jump.act_on(&mut free)).collect();
+    let parabolas = Parabolas::new(scene);
+    let mut starts: Vec<Start> = Vec::new();
+    for segment in parabolas.best_segments(MOST_SEGMENTS) {
+        let candidates = freed_candidates(&nested.refined, &parabolas, &segment)?;
+        for (candidate, wanted) in candidates.into_iter().take(MOST_TURNS) {
+            let mut start = candidate.unknowns;
+            let known = &nested.best().solution.unknowns.parameters;
+            start.parameters = [known.as_slice(), &acting.instance.null()].concat();
+            for jump in &jumps {
+                start.parameters.extend(jump.instance.null());
+            }
+            unbend(&mut start, &wanted);
+            jump_to(&free, &jumps, &mut start, &wanted)?;
+            starts.push((start, candidate.gap));
+        }
+    }
+    // Positions are off by metres at first, and would drag the spins after them.
+    for times in LOOSER {
+        let loose = optima_from(&loosened(&free, times), &starts)?;
+        starts = loose.into_iter().map(|one| (one.solution.unknowns, one.gap)).collect();
+    }
+    let mut found = Vec::new();
+    for Optimum { solution, gap, .. } in optima_from(&free, &starts)?.into_iter().take(1) {
+        let launched = launch(&free, &solution.unknowns).map_err(solver_error)?;
+        let wanted: Vec<Leaving> = launched.iter().map(leaving).collect();
+        let mut start = solution.unknowns;
+        start.parameters.truncate(refined.parameters.len());
+        found.extend(same_jump(refined, acting, start, &wanted).map(|start| (start, gap)));
+    }
+    Ok(found)
+}
+
+/// The scene with positions so many times less sure.
+fn loosened(scene: &RefinedScene, times: f64) -> RefinedScene {
+    let mut loose = scene.clone();
+    let poses = loose.bodies.iter_mut().flat_map(|body| &mut body.poses);
+    poses.for_each(|pose| pose.position_std_m *= times);
+    loose
+}
+
+/// Puts the contact between bodies as heavy as each other: what a bent path told of it is of no use.
+fn unbend(start: &mut RefinedUnknowns, wanted: &[Leaving]) {
+    let centres = start.bodies.iter().map(|body| Vector3::from(body.position));
+    let middle = centres.sum::<Vector3<f64>>() / start.bodies.len() as f64;
+    start.contact_point = middle.into();
+    start.impulse = (wanted[0].velocity - Vector3::from(start.bodies[0].velocity_before)).into();
+    start.log_mass_ratio = 0.0;
+}
+
+/// Gives the free jumps what the bodies lack to leave as `wanted`.
+fn jump_to(
+    free: &RefinedScene,
+    jumps: &[Acting],
+    start: &mut RefinedUnknowns,
+    wanted: &[Leaving],
+) -> Result<()> {
+    let launched = launch(free, start).map_err(solver_error)?;
+    for jump in jumps {
+        let Some(body) = jump.instance.body else { continue };
+        let own = leaving(&launched[body]);
+        let mut lacking: Vec<Vector3<f64>> = vec![wanted[body].spin - own.spin];
+        if jump.count > 3 {
+            lacking.insert(0, wanted[body].velocity - own.velocity);
+        }
+        let values = lacking.iter().flat_map(|vector| vector.iter().copied());
+        for (value, lacks) in start.parameters[jump.first..].iter_mut().zip(values) {
+            *value = lacks;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,32 @@
+//! Effects so strong that the model without them says nothing of the collision: half of gravity, as with a
+//! frame rate that is wrong by a third, or a force like a motor's. Their fits find the way all the same.
+
+use super::*;
+
+/// How often noise alone leaves χ² outside, in one of so many scenes.
+const SCENES: f64 = 6.0;
+
+#[test]
+fn a_model_that_is_far_off_hides_no_strong_effect() {
+    let strong = [
+        ("gravity_scale", effect("gravity_scale", None, &[("s", &[0.5])])),
+        ("constant_force@a", effect("constant_force", Some("a"), &[("a", &[4.0, 1.0, -3.0])])),
+    ];
+    for (label, hidden) in strong {
+        for seed in 61..64 {
+            let scene = with(boxes(seed), std::slice::from_ref(&hidden)).scene;
+            let without = fit(&scene, &[]).fit.reduced_chi2.unwrap();
+            assert!(without > 10.0, "{label}, {seed}: {without}");
+            let result = fit(&scene, &[label.to_string()]);
+            assert!(is_in_band(&result, SCENES), "{label}, {seed}: {:?}", result.fit);
+        }
+    }
+}
+
+#[test]
+fn half_of_gravity_is_diagnosed() {
+    let scene = with(boxes(64), &[effect("gravity_scale", None, &[("s", &[0.5])])]).scene;
+    let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
+    assert_eq!(diagnosis.candidates[0].label(), "gravity_scale", "{}", diagnosis.explanation);
+    assert!(!diagnosis.stays_structured, "{}", diagnosis.explanation);
+}
