@@ -112,9 +112,7 @@ class RefinedFit {
   }
 
   // Whether a body turns much faster than at the start.
-  bool IsTooCoarse(const RefinedUnknowns& unknowns) const {
-    return steps_.AreTooLong(unknowns);
-  }
+  bool IsTooCoarse(const RefinedUnknowns& unknowns) const { return steps_.AreTooLong(unknowns); }
 
   const std::vector<Flight>& flights() const { return flights_; }
 

@@ -125,7 +125,8 @@ impl Fitted {
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
         if self.is_lost() && fitted.is_lost() && acting.instance.is_in_flight() {
-            let starts = found_again(self, scene, &fitted.refined, &acting).unwrap_or_default();
+            let start = found_again(self, scene, &fitted.refined, &acting).ok().flatten();
+            let starts: Vec<Start> = start.into_iter().collect();
             fitted.optima.extend(optima_from(&fitted.refined, &starts).unwrap_or_default());
             sort(&mut fitted.optima);
         }

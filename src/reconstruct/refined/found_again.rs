@@ -1,4 +1,4 @@
-//! Starts for an effect in flight where the fit with it has lost its way: the model without it was bent so
+//! A start for an effect in flight where the fit with it has lost its way: the model without it was bent so
 //! far that rotations wrapped. Free of the contact, each flight finds its own spin and all of them the
 //! effect; then comes the contact that makes the same jump.
 
@@ -21,13 +21,13 @@ const MOST_TURNS: usize = 2;
 /// How many times less sure positions are, at first and then.
 const LOOSER: [f64; 2] = [1000.0, 30.0];
 
-/// The starts of `nested` with `acting` added, which `refined` holds already.
+/// The start of `nested` with `acting` added, which `refined` holds already.
 pub(super) fn found_again(
     nested: &Fitted,
     scene: &Scene,
     refined: &RefinedScene,
     acting: &Acting,
-) -> Result<Vec<Start>> {
+) -> Result<Option<Start>> {
     let mut free = refined.clone();
     let jumps = possible(scene, &free_jump(scene)?);
     let jumps: Vec<Acting> = jumps.iter().map(|jump| jump.act_on(&mut free)).collect();
@@ -52,15 +52,12 @@ pub(super) fn found_again(
         let loose = optima_from(&loosened(&free, times), &starts)?;
         starts = loose.into_iter().map(|one| (one.solution.unknowns, one.gap)).collect();
     }
-    let mut found = Vec::new();
-    for Optimum { solution, gap, .. } in optima_from(&free, &starts)?.into_iter().take(1) {
-        let launched = launch(&free, &solution.unknowns).map_err(solver_error)?;
-        let wanted: Vec<Leaving> = launched.iter().map(leaving).collect();
-        let mut start = solution.unknowns;
-        start.parameters.truncate(refined.parameters.len());
-        found.extend(same_jump(refined, acting, start, &wanted).map(|start| (start, gap)));
-    }
-    Ok(found)
+    let Optimum { solution, gap, .. } = optima_from(&free, &starts)?.swap_remove(0);
+    let launched = launch(&free, &solution.unknowns).map_err(solver_error)?;
+    let wanted: Vec<Leaving> = launched.iter().map(leaving).collect();
+    let mut start = solution.unknowns;
+    start.parameters.truncate(refined.parameters.len());
+    Ok(same_jump(refined, acting, start, &wanted).map(|start| (start, gap)))
 }
 
 /// The scene with positions so many times less sure.
