@@ -26,6 +26,7 @@ mod rivals;
 mod shared_errors;
 mod swing;
 mod throws;
+mod throws_in_words;
 mod throws_told;
 mod together;
 mod unexplained;
