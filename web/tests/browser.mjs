@@ -52,6 +52,7 @@ export async function open(browser, file, options = {}) {
     ...options,
   });
   const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE_MS);
   const errors = [];
   page.on('console', (message) => {
     if (['error', 'warning'].includes(message.type())) errors.push(message.text());
@@ -91,10 +92,13 @@ export function scene(name, change = () => {}) {
   return file;
 }
 
+/** How long a page may take for what it does at once where nothing else runs, ms: other tests do. */
+export const PATIENCE_MS = 120_000;
+
 /** Waits until `read` gives what `isRight` likes, and gives it back. */
 export async function until(read, isRight, what) {
   let last;
-  for (let tries = 0; tries < 100; tries += 1) {
+  for (const end = Date.now() + PATIENCE_MS; Date.now() < end;) {
     last = await read();
     if (isRight(last)) return last;
     await new Promise((resolve) => setTimeout(resolve, 50));

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { join } from 'node:path';
 import { after, before } from 'node:test';
-import { ROOT, folder, launch, scene, until } from './browser.mjs';
+import { PATIENCE_MS, ROOT, folder, launch, scene, until } from './browser.mjs';
 
 const SMASH = process.env.SMASH ?? join(ROOT, 'target', 'debug', 'smash');
 /** What the browser itself says of a refusal, of an address that is no more, or of a server that is gone: the page
@@ -49,6 +49,7 @@ export async function served(file) {
 export async function opened(address) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true });
   const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE_MS);
   const errors = [];
   page.on('console', (message) => {
     const isBad = ['error', 'warning'].includes(message.type()) && !KNOWN.test(message.text());

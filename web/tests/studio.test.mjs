@@ -69,7 +69,7 @@ test('keys undo and redo, but where one types they are the text’s', () =>
 
 test('the first window shows the collision, and why an effect can’t be added', () =>
   tried(async (page) => {
-    await page.getByTestId('explanation').waitFor({ timeout: 60_000 });
+    await page.getByTestId('explanation').waitFor();
     const stage = await page.getByTestId('stage').boundingBox();
     assert.ok(stage.y + 150 < 900, `the stage starts at ${stage.y}`);
     const effects = await page.getByTestId('catalogue').locator('li').allTextContents();
