@@ -124,7 +124,9 @@ impl Fitted {
             },
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
-        if self.is_lost() && fitted.is_lost() && acting.instance.is_in_flight() {
+        // Given values may be what the poses contradict: nothing leads from there.
+        let is_free = acting.instance.fixed.is_empty() && acting.instance.is_in_flight();
+        if is_free && self.is_lost() && fitted.is_lost() {
             let start = found_again(self, scene, &fitted.refined, &acting).ok().flatten();
             let starts: Vec<Start> = start.into_iter().collect();
             fitted.optima.extend(optima_from(&fitted.refined, &starts).unwrap_or_default());
