@@ -43,18 +43,20 @@ pub(super) fn waves(fitted: &Fitted) -> f64 {
 /// The same with a smooth curve taken out of each series, as a force that is missing leaves it: what errors
 /// share with their neighbours alone stays.
 pub(super) fn waves_beside_curves(fitted: &Fitted) -> f64 {
+    mean_length(fitted, beside_a_curve)
+}
+
+fn beside_a_curve(series: Vec<f64>) -> Vec<f64> {
     /// A force bends a path by t², and the fit takes what it can of that.
     const DEGREE: usize = 4;
-    mean_length(fitted, |series| {
-        let middle = 0.5 * (series.len() as f64 - 1.0);
-        let powers = DMatrix::from_fn(series.len(), DEGREE + 1, |row, degree| {
-            (row as f64 / middle - 1.0).powi(degree as i32)
-        });
-        let basis = powers.qr().q();
-        let series = DVector::from_vec(series);
-        let curve = &basis * basis.tr_mul(&series);
-        (series - curve).as_slice().to_vec()
-    })
+    let middle = 0.5 * (series.len() as f64 - 1.0);
+    let powers = DMatrix::from_fn(series.len(), DEGREE + 1, |row, degree| {
+        (row as f64 / middle - 1.0).powi(degree as i32)
+    });
+    let basis = powers.qr().q();
+    let series = DVector::from_vec(series);
+    let curve = &basis * basis.tr_mul(&series);
+    (series - curve).as_slice().to_vec()
 }
 
 fn mean_length(fitted: &Fitted, rest: impl Fn(Vec<f64>) -> Vec<f64>) -> f64 {
@@ -124,5 +126,33 @@ mod tests {
         // A quarter of a wave of 63 says the same; signs that alternate say no less than they are.
         assert!((10.0..30.0).contains(&correlation_length(&wave)), "{}", correlation_length(&wave));
         assert!(correlation_length(&turns) <= 1.0);
+    }
+
+    /// Beside a smooth curve independent errors make no waves, and those that neighbours share do.
+    #[test]
+    fn only_shared_errors_make_waves_beside_a_curve() {
+        use crate::diagnose::shared_errors::WAVES;
+        use rand::SeedableRng;
+        use rand_distr::{Distribution, StandardNormal};
+
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        // Four flights of six coordinates, 30 poses each.
+        let mut mean_length = |shared: f64| -> f64 {
+            let lengths = (0..24).map(|_| {
+                let mut drawn = || -> f64 { StandardNormal.sample(&mut random) };
+                let mut error = drawn();
+                let series = (0..30).map(|i| {
+                    error = shared * error + (1.0 - shared * shared).sqrt() * drawn();
+                    error + 0.1 * f64::from(i * i)
+                });
+                correlation_length(&beside_a_curve(series.collect()))
+            });
+            lengths.sum::<f64>() / 24.0
+        };
+        for _ in 0..20 {
+            let (own, shared) = (mean_length(0.0), mean_length(0.8));
+            assert!(own < 1.1 && 1.1 < WAVES, "{own}");
+            assert!(shared > WAVES, "{shared}");
+        }
     }
 }

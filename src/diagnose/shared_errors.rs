@@ -9,9 +9,8 @@ use super::otherwise::Explained;
 use crate::reconstruct::refined::Fitted;
 use crate::{Result, Scene};
 
-/// Correlation length of what is left beside smooth curves. That of independent noise is less than 1.1 in
-/// 98 of 100 scenes, whatever their number of poses; that of errors which share four fifths with each
-/// neighbour is more than 1.4 from 30 poses a flight on.
+/// Correlation length of what is left beside smooth curves: of independent errors it is less than 1.1, of
+/// errors that share four fifths with each neighbour more than this from 30 poses a flight on.
 pub(super) const WAVES: f64 = 1.25;
 /// Fewer poses of a flight show next to nothing.
 const LEAST_LEFT: usize = 5;
