@@ -124,9 +124,10 @@ impl Fitted {
             },
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
-        // Given values may be what the poses contradict: nothing leads from there.
+        // Given values may be what the poses contradict: nothing leads from there. A second effect is
+        // added to what the first one has found.
         let is_free = acting.instance.fixed.is_empty() && acting.instance.is_in_flight();
-        if is_free && self.is_lost() && fitted.is_lost() {
+        if is_free && self.acting.is_empty() && self.is_lost() && fitted.is_lost() {
             let start = found_again(self, scene, &fitted.refined, &acting).ok().flatten();
             let starts: Vec<Start> = start.into_iter().collect();
             fitted.optima.extend(optima_from(&fitted.refined, &starts).unwrap_or_default());
