@@ -47,6 +47,15 @@ impl Fit {
             + 2.0 * outliers as f64 * self.poses.ln()
     }
 
+    /// By how much χ² is worse than with the effects' numbers at the truth; `None` where those aren't known.
+    ///
+    /// # Errors
+    /// As of [`Fit::of`].
+    pub fn missed(&self, case: &Case) -> Result<Option<f64>> {
+        let known = case.true_effects.as_ref().map(|known| Fit::of(case, known)).transpose()?;
+        Ok(known.map(|known| self.deviance - known.deviance))
+    }
+
     /// How far mass ratio and restitution are from those that another solver finds, in their deviations.
     pub fn differs(&self, case: &Case) -> Vec<f64> {
         let own = [self.result.mass_ratio.as_ref(), Some(&self.result.restitution)];

@@ -7,7 +7,7 @@ use smash::diagnose::Verdict;
 use crate::answer::Answer;
 use crate::case::Case;
 use crate::fit::{Errors, Fit};
-use crate::table::{percent, pooled};
+use crate::table::{number, percent, pooled};
 
 /// A fit that is behind by less can't be told from a better one: odds of twenty to one.
 const TELLS_APART: f64 = 6.0;
@@ -26,15 +26,12 @@ impl Outside {
         let answer = Answer::of(&case.scene)?;
         let with = Fit::of(case, &case.effects)?;
         let ahead = answer.fit(case)?.bic() - with.bic();
-        let missed = match &case.true_effects {
-            Some(known) => with.deviance - Fit::of(case, known)?.deviance,
-            None => f64::NAN,
-        };
         let row = format!(
-            "| {} | {} | {} | {ahead:.1} | {missed:.1} |",
+            "| {} | {} | {} | {ahead:.1} | {} |",
             case.labels().join(" + "),
             case.name,
-            answer.in_words()
+            answer.in_words(),
+            number(with.missed(case)?)
         );
         Ok(Outside { law: case.kind(), row, ahead, with: with.errors(case), answer })
     }

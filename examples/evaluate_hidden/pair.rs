@@ -6,7 +6,7 @@ use smash::{Result, improve};
 
 use crate::case::Case;
 use crate::fit::Fit;
-use crate::table::percent;
+use crate::table::{number, percent};
 
 /// Models whose criteria differ by less can't be told apart: odds of twenty to one.
 const TELLS_APART: f64 = 6.0;
@@ -29,12 +29,9 @@ impl Pair {
         found.sort();
         let with = Fit::of(case, &case.effects)?;
         let behind = with.bic() - Fit::from(case, improvement.result).bic();
-        let missed = match &case.true_effects {
-            Some(known) => with.deviance - Fit::of(case, known)?.deviance,
-            None => f64::NAN,
-        };
+        let missed = number(with.missed(case)?);
         let (truth, found) = (truth.join(" + "), found.join(" + "));
-        let row = format!("| {truth} | {} | {found} | {behind:.1} | {missed:.1} |", case.name);
+        let row = format!("| {truth} | {} | {found} | {behind:.1} | {missed} |", case.name);
         Ok(Pair { row, is_exact: truth == found, behind })
     }
 }

@@ -8,7 +8,7 @@ use smash::Result;
 use crate::answer::Answer;
 use crate::case::Case;
 use crate::fit::{Errors, Fit};
-use crate::table::{percent, pooled, quantile, spread};
+use crate::table::{number, percent, pooled, quantile, spread};
 
 /// A case, what the diagnosis says of it, and what the right model does.
 pub struct Single {
@@ -20,7 +20,7 @@ pub struct Single {
     base: Errors,
     with: Errors,
     /// By how much χ² with the right effect is worse than with its parameters at the truth.
-    missed: f64,
+    missed: Option<f64>,
     /// From another solver's numbers, in deviations.
     differs: Vec<f64>,
     name: String,
@@ -35,10 +35,7 @@ impl Single {
         let answer = Answer::of(&case.scene)?;
         let with = Fit::of(case, &case.effects)?;
         let is_first = answer.is_first(case);
-        let missed = match &case.true_effects {
-            Some(known) => with.deviance - Fit::of(case, known)?.deviance,
-            None => f64::NAN,
-        };
+        let missed = with.missed(case)?;
         let failure = match is_first {
             true => None,
             false => Some(failure(case, &answer, &with, missed)?),
@@ -66,20 +63,21 @@ const WORSE: f64 = 0.1;
 /// the right effect is worse than one with its true parameters, or leaves more than noise; the
 /// `data`, where the right model is no better than the one named; else the `rule` that decides
 /// between them.
-fn failure(case: &Case, answer: &Answer, with: &Fit, missed: f64) -> Result<String> {
+fn failure(case: &Case, answer: &Answer, with: &Fit, missed: Option<f64>) -> Result<String> {
     let behind = with.bic() - answer.fit(case)?.bic();
     let cause = match () {
-        () if missed > WORSE || with.errors(case).is_stuck() => "search",
+        () if missed.is_some_and(|chi2| chi2 > WORSE) || with.errors(case).is_stuck() => "search",
         () if behind >= 0.0 => "data",
         () => "rule",
     };
     Ok(format!(
-        "| {} | {} | {} | {} | {} | {behind:.1} | {missed:.1} | {cause} |",
+        "| {} | {} | {} | {} | {} | {behind:.1} | {} | {cause} |",
         case.labels().join(" + "),
         case.name,
         answer.in_words(),
         if answer.is_in_set(case) { "yes" } else { "no" },
         if answer.is_of_class(case) { "yes" } else { "no" },
+        number(missed),
     ))
 }
 
@@ -108,10 +106,12 @@ pub fn tables(cases: &[Case]) -> Result<String> {
          |---|---|---|---|---|---|---|---|---|---|\n";
     kinds.iter().for_each(|kind| text += &errors(kind, &of(kind)));
     text += &errors("all", &all);
-    let stuck = singles.iter().filter(|single| single.missed > WORSE);
+    let stuck = singles
+        .iter()
+        .filter_map(|single| Some((single, single.missed.filter(|chi2| *chi2 > WORSE)?)));
     let stuck: Vec<String> =
-        stuck.map(|single| format!("{} by {:.1}", single.name, single.missed)).collect();
-    if singles.iter().any(|single| single.missed.is_finite()) {
+        stuck.map(|(single, missed)| format!("{} by {missed:.1}", single.name)).collect();
+    if singles.iter().any(|single| single.missed.is_some()) {
         let stuck = if stuck.is_empty() { "none".to_string() } else { stuck.join(", ") };
         text +=
             "\nFits with the right effect that end worse than with its parameters at the truth: ";

@@ -8,6 +8,11 @@ pub fn percent(count: usize, of: usize) -> String {
     }
 }
 
+/// With one decimal, or `–` of none.
+pub fn number(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.1}"))
+}
+
 /// Median and 90th percentile.
 pub fn spread(values: impl Iterator<Item = f64>) -> String {
     let values: Vec<f64> = values.collect();
