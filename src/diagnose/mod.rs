@@ -122,11 +122,12 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
     // A score test that fails leaves all to be refitted.
     let promising =
         candidates::promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
+    let judged =
+        |with| candidates::candidate(scene, fitted, with, instances.len(), before.as_ref());
     let refitted = |chosen: &[Instance]| -> Vec<Candidate> {
-        let refitted = chosen.par_iter().filter_map(|instance| {
-            let with = fitted.with_quickly(scene, instance).ok()?;
-            candidates::candidate(scene, fitted, with, instances.len(), before.as_ref())
-        });
+        let refitted = chosen
+            .par_iter()
+            .filter_map(|instance| judged(fitted.with_at_once(scene, instance).ok()?));
         refitted.collect()
     };
     let mut candidates = refitted(&promising);
@@ -136,6 +137,14 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
     if fitted.is_far_off() || candidates.iter().all(is_structured) {
         let others = instances.iter().filter(|instance| !promising.contains(instance));
         candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
+    }
+    // It takes most of a diagnosis' time, and is needless beside one that leaves nothing.
+    if fitted.is_lost() && candidates.iter().all(is_structured) {
+        let again = |candidate: Candidate| {
+            let with = fitted.again_quickly(scene, candidate.fitted.clone()).ok();
+            with.and_then(judged).unwrap_or(candidate)
+        };
+        candidates = candidates.into_par_iter().map(again).collect();
     }
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     candidates

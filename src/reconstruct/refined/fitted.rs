@@ -55,7 +55,8 @@ impl Fitted {
     /// No start leads to a solution.
     pub(crate) fn with(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
         let started = Instant::now();
-        let found = self.extended(scene, instance).and_then(|mut fitted| {
+        let found = self.extended(scene, instance).and_then(|fitted| {
+            let mut fitted = self.again(scene, fitted);
             fitted.settle()?;
             self.with_phase(scene, fitted, started)
         });
@@ -73,7 +74,17 @@ impl Fitted {
     /// # Errors
     /// No start leads to a solution.
     pub(crate) fn with_quickly(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
+        self.again_quickly(scene, self.extended(scene, instance)?)
+    }
+
+    /// As [`Fitted::with_quickly`], but where the fit loses its way, so it has.
+    pub(crate) fn with_at_once(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
         self.roughly_settled(self.extended(scene, instance)?)
+    }
+
+    /// As [`Fitted::with_quickly`], where `fitted` is what [`Fitted::with_at_once`] found.
+    pub(crate) fn again_quickly(&self, scene: &Scene, fitted: Fitted) -> Result<Fitted> {
+        self.roughly_settled(self.again(scene, fitted))
     }
 
     /// As [`Fitted::with_quickly`], from where `near` is, a fit that extends this, too, and from `values` of
@@ -124,17 +135,25 @@ impl Fitted {
             },
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
-        // Given values may be what the poses contradict: nothing leads from there. A second effect is
-        // added to what the first one has found.
-        let is_free = acting.instance.fixed.is_empty() && acting.instance.is_in_flight();
-        if is_free && self.acting.is_empty() && self.is_lost() && fitted.is_lost() {
-            let start = found_again(self, scene, &fitted.refined, &acting).ok().flatten();
+        fitted.acting.push(acting);
+        Ok(fitted)
+    }
+
+    /// `fitted`, which extends this, or where it has lost its way what else is found.
+    fn again(&self, scene: &Scene, mut fitted: Fitted) -> Fitted {
+        // A second effect is added to what the first one has found.
+        let ([acting], true) = (fitted.acting.as_slice(), self.is_lost() && fitted.is_lost())
+        else {
+            return fitted;
+        };
+        // Given values may be what the poses contradict: nothing leads from there.
+        if acting.instance.fixed.is_empty() && acting.instance.is_in_flight() {
+            let start = found_again(self, scene, &fitted.refined, acting).ok().flatten();
             let starts: Vec<Start> = start.into_iter().collect();
             fitted.optima.extend(optima_from(&fitted.refined, &starts).unwrap_or_default());
             sort(&mut fitted.optima);
         }
-        fitted.acting.push(acting);
-        Ok(fitted)
+        fitted
     }
 
     /// `fitted`, which extends this, with what that took as a phase.
@@ -292,7 +311,7 @@ impl Fitted {
 
     /// Whether the fit has lost its way: what is missing alone hardly leaves so much. Where the noise isn't
     /// stated only turns tell: a spin that has wrapped is what leads astray.
-    pub(super) fn is_lost(&self) -> bool {
+    pub(crate) fn is_lost(&self) -> bool {
         /// More than an annotator is ever off.
         const LARGE_RAD: f64 = 0.2;
         match self.has_stated_noise() {
