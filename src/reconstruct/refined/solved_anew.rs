@@ -11,8 +11,10 @@ use crate::Scene;
 use crate::reconstruct::Loss;
 use crate::scene::Gap;
 
-/// Of more poses a single one misleads nobody.
+/// So few poses are all tried; of more, those whose absence lets the others lie on parabolas best.
 const FEW_POSES: usize = 32;
+/// Of more poses than these a single one misleads nobody.
+const MOST_POSES: usize = 500;
 
 /// With a body's stamps moved: the delay may be more than a segment. Which delays are worth it the
 /// parabolas tell.
@@ -32,7 +34,7 @@ pub(super) fn delayed(nested: &Fitted, scene: &Scene, acting: &Acting, place: us
     solved.map(|solved| solved.start).collect()
 }
 
-/// Without each pose in turn, the best first; nothing where the poses aren't few, or the model isn't far
+/// Without each pose in turn, the best first; nothing where the poses are very many, or the model isn't far
 /// off all of them.
 pub(super) fn without_a_pose(
     nested: &Fitted,
@@ -40,9 +42,12 @@ pub(super) fn without_a_pose(
     acting: &Acting,
     place: usize,
 ) -> Vec<Start> {
-    let times_s = points(scene, &acting.instance);
-    if times_s.len() > FEW_POSES || !nested.is_lost() {
+    let mut times_s = points(scene, &acting.instance);
+    if times_s.len() > MOST_POSES || !nested.is_lost() {
         return Vec::new();
+    }
+    if times_s.len() > FEW_POSES {
+        times_s = off_the_parabola(scene, acting, &times_s);
     }
     let mut solved: Vec<SolvedAnew> = times_s
         .into_iter()
@@ -58,6 +63,19 @@ pub(super) fn without_a_pose(
         .collect();
     solved.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     solved.into_iter().take(MOST_POINTS).map(|solved| solved.start).collect()
+}
+
+/// The poses without which the others lie on parabolas best.
+fn off_the_parabola(scene: &Scene, acting: &Acting, times_s: &[f64]) -> Vec<f64> {
+    let mut left: Vec<(f64, f64)> = times_s
+        .iter()
+        .filter_map(|&time_s| {
+            let rest = scene.without_pose(acting.instance.body, time_s)?;
+            Some((Parabolas::new(&rest).best_segments(1).first()?.squares_m2, time_s))
+        })
+        .collect();
+    left.sort_by(|a, b| a.0.total_cmp(&b.0));
+    left.into_iter().take(MOST_POINTS).map(|(_, time_s)| time_s).collect()
 }
 
 struct SolvedAnew {

@@ -30,3 +30,23 @@ fn half_of_gravity_is_diagnosed() {
     assert_eq!(diagnosis.candidates[0].label(), "gravity_scale", "{}", diagnosis.explanation);
     assert!(!diagnosis.stays_structured, "{}", diagnosis.explanation);
 }
+
+/// As a slip of the keyboard makes: one pose of many is ten metres off, and the fit with it is of no use.
+#[test]
+fn a_wild_pose_among_many_is_found() {
+    let mut spec = boxes(65);
+    spec.observations =
+        Sampling::Regular(RegularSampling { interval: 2, frame_count: 90, gap: None });
+    let file = simulate(&spec).unwrap().scene_file.to_json();
+    for index in [3, 7, 15, 35] {
+        let mut scene: Value = serde_json::from_str(&file).unwrap();
+        let poses = scene["bodies"][0]["observations"].as_array_mut().unwrap();
+        assert!(poses.len() > 40);
+        poses[index]["position"][1] = 10.0.into();
+        let scene = Scene::parse(&scene.to_string(), "wild").unwrap();
+        let result = fit(&scene, &["outlier@a".to_string()]);
+        assert!(is_in_band(&result, SCENES), "{index}: {:?}", result.fit);
+        let time_s = scene.bodies()[0].observations[index].time_s;
+        assert_eq!(result.effects[0].parameters["time"].value, Some(Number::Scalar(time_s)));
+    }
+}
