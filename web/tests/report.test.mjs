@@ -213,6 +213,27 @@ test('a rung names what the poses can’t tell from its effect', () =>
     },
   ));
 
+test('a noise that may be other than stated is told beside the verdict, and with the ladder', () =>
+  looked(
+    changed(report, 'noisy.html', (data) => {
+      data.diagnosis = null;
+      data.models = [data.models[1]];
+      data.improvement.other_noise = {
+        position: 0.002,
+        orientation: null,
+        stated_position: 0.001,
+        stated_orientation: null,
+        missing: [],
+      };
+    }),
+    async (page) => {
+      const told =
+        /the poses show 2\.00 mm a coordinate instead of 1\.00 mm\. With that, nothing is missing\./;
+      assert.match(await page.getByTestId('verdict').textContent(), told);
+      assert.match(await page.getByTestId('otherwise').textContent(), told);
+    },
+  ));
+
 test('the books say where the momentum of a lone body went', async () => {
   const books = (page) => page.getByRole('region', { name: 'The books' }).textContent();
   await looked(report, async (page) => {

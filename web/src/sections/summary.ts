@@ -6,6 +6,7 @@ import { angle, length, significant, withDeviation, withUnit } from '../numbers'
 import type { Estimate, Model, Report } from '../report';
 import { flagInWords, label } from '../words';
 import type { Doubt } from '../words';
+import { otherwise } from './ladder';
 
 export function summary(report: Report, model: Model | null): HTMLElement[] {
   if (model === null) return [element('p', {}, 'This report holds no result.')];
@@ -39,9 +40,11 @@ function ofLadder(improvement: Report['improvement'], model: Model): string | nu
   const last = improvement?.ladder.at(-1);
   const isRefined = model.result.preset === 'refined';
   if (!last || !improvement || !isRefined || !hasEffects(model, last.with)) return null;
-  return improvement.verdict === 'unknown_effect'
-    ? 'Something is left that no effect of the catalogue explains.'
-    : 'Nothing more is missing that these poses could show.';
+  const verdict =
+    improvement.verdict === 'unknown_effect'
+      ? 'Something is left that no effect of the catalogue explains.'
+      : 'Nothing more is missing that these poses could show.';
+  return [verdict, otherwise(improvement)].filter(Boolean).join(' ');
 }
 
 function hasEffects(model: Model, labels: string[]): boolean {
