@@ -10,7 +10,7 @@ use super::shared_errors::SharedErrors;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
 use crate::reconstruct::ParameterEstimate;
-use crate::words::{counted, significant, with_std};
+use crate::words::{counted, measured, significant, with_std};
 
 /// What `diagnosis` says. `pair`: two effects that explain together what one doesn't.
 pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
@@ -213,8 +213,7 @@ pub(crate) fn in_words(parameters: &BTreeMap<String, ParameterEstimate>) -> Stri
                 format!("{} ± {}", joined(values), joined(stds))
             }
         };
-        let unit = if estimate.unit == "1" { String::new() } else { format!(" {}", estimate.unit) };
-        format!("{name} = {number}{unit}")
+        format!("{name} = {}", measured(&number, &estimate.unit))
     };
     parameters.iter().map(one).collect::<Vec<_>>().join(", ")
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::catalogue::check_is_told_apart;
 use super::request_file::RequestFile;
 use super::{Effect, Parameter, find};
-use crate::words::{did_you_mean, limit, quoted};
+use crate::words::{did_you_mean, limit, measured, quoted};
 use crate::{Error, ErrorKind, Result};
 
 /// An effect, perhaps on one body alone, perhaps with parameters that are known.
@@ -144,7 +144,8 @@ pub(super) fn check_value(effect: &Effect, parameter: &Parameter, numbers: &[f64
     match numbers.iter().find(|number| !(low..=high).contains(*number)) {
         Some(outside) => {
             let problem = format!("{} is outside its bounds", limit(*outside));
-            let mend = format!("{} to {} {}", limit(low), limit(high), parameter.unit);
+            let range = format!("{} to {}", limit(low), limit(high));
+            let mend = measured(&range, &parameter.unit.to_string());
             let place = format!("{}:{}", effect.name, parameter.name);
             Err(Error::invalid(place, problem).mend(mend))
         }

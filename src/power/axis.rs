@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::effect::{Effect, Parameter, Scan};
 use crate::reconstruct::Number;
 use crate::simulate::EffectSpec;
-use crate::words::limit;
+use crate::words::{limit, measured};
 use crate::{Error, Result};
 
 /// One parameter, growing from its null; all others stay at theirs, moments where they are given.
@@ -75,8 +75,10 @@ pub(super) fn axes(effect: &Effect, asked: &EffectSpec, size: Option<f64>) -> Re
         if axis.size > axis.longest * (1.0 + 1e-9) {
             let Parameter { name, unit, .. } = &axis.parameter;
             let problem = format!("{} is beyond the bounds of `{name}`", limit(axis.size));
-            return Err(Error::invalid(&effect.name, problem)
-                .mend(format!("at most {} {unit} off its null", limit(axis.longest))));
+            return Err(Error::invalid(&effect.name, problem).mend(format!(
+                "at most {} off its null",
+                measured(&limit(axis.longest), &unit.to_string())
+            )));
         }
     }
     Ok(axes)

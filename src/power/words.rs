@@ -3,7 +3,7 @@
 use super::report::{AxisPower, Bias, Power};
 use crate::effect::Effect;
 use crate::reconstruct::Number;
-use crate::words::significant;
+use crate::words::{measured, significant};
 
 /// A larger bias is worth a word.
 const NOTABLE_SIGMA: f64 = 1.0;
@@ -98,8 +98,7 @@ impl AxisPower {
             Number::Scalar(_) => parts.concat(),
             Number::Vector(_) => format!("[{}]", parts.join(", ")),
         };
-        let unit = if self.unit == "1" { String::new() } else { format!(" {}", self.unit) };
-        format!("{} = {value}{unit}", self.parameter)
+        format!("{} = {}", self.parameter, measured(&value, &self.unit))
     }
 }
 

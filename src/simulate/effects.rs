@@ -10,7 +10,7 @@ use crate::effect::{Effect, EffectRequest, Parameter, Scan, find, name_of};
 use crate::reconstruct::Number;
 use crate::reconstruct::refined::acting::{Instance, instances};
 use crate::scene::DynamicBody;
-use crate::words::{did_you_mean, limit, quoted};
+use crate::words::{did_you_mean, limit, measured, quoted};
 use crate::{Error, ErrorKind, Result, Scene};
 
 /// An effect beyond the base model, with the body that it acts on and its parameters.
@@ -115,7 +115,8 @@ fn wanted(parameter: &Parameter) -> String {
     let [low, high] = parameter.bounds.map(limit);
     let Parameter { name, unit, typical, .. } = parameter;
     let example = if typical.is_empty() { String::new() } else { format!("; {typical}") };
-    format!("write `{name}`: {form} from {low} to {high} {unit}{example}")
+    let range = measured(&format!("{low} to {high}"), &unit.to_string());
+    format!("write `{name}`: {form} from {range}{example}")
 }
 
 /// What concerns single poses must hit one.

@@ -168,6 +168,13 @@ fn extreme_given_values_end_in_numbers_or_words() {
 }
 
 #[test]
+fn bounds_are_told_with_their_unit_if_there_is_one() {
+    for (text, range) in [("magnus:k=5", "-1 to 1"), ("spin_drag:kappa=1e9", "0 to 100 1/s")] {
+        assert_eq!(EffectRequest::parse(text).unwrap_err().hint(), Some(range), "{text}");
+    }
+}
+
+#[test]
 fn requests_that_name_nothing_are_refused() {
     for text in ["drag", "linear_drag@", "linear_drag:", "linear_drag:k", "linear_drag:k=-1", ""] {
         let error = EffectRequest::parse(text).unwrap_err();
