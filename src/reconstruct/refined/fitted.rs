@@ -77,7 +77,7 @@ impl Fitted {
         self.again_quickly(scene, self.extended(scene, instance)?)
     }
 
-    /// As [`Fitted::with_quickly`], but where the fit loses its way, so it has.
+    /// As [`Fitted::with_quickly`], but a fit that has lost its way stays where it is.
     pub(crate) fn with_at_once(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
         self.roughly_settled(self.extended(scene, instance)?)
     }

@@ -13,7 +13,7 @@ use crate::scene::Gap;
 
 /// So few poses are all tried; of more, those whose absence lets the others lie on parabolas best.
 const FEW_POSES: usize = 32;
-/// Of more poses than these a single one misleads nobody.
+/// Of more poses than these none is left out: the work goes with their square.
 const MOST_POSES: usize = 500;
 
 /// With a body's stamps moved: the delay may be more than a segment. Which delays are worth it the

@@ -20,10 +20,11 @@ const VERDICTS = {
 /** What else than missing physics may leave what is left: the poses' errors themselves. */
 export function otherwise({ other_noise: noise, shared_errors: shared }: Improvement): string | null {
   if (noise) {
-    const missing = noise.missing.length > 0 ? `${noise.missing.join(' and ')} and no more` : 'nothing';
+    const labels = noise.missing.join(' and ');
+    const missing = labels ? `all that is missing is ${labels}` : 'nothing is missing';
     return (
       `The noise may be other than stated: the poses show ${length(noise.position)} a coordinate ` +
-      `instead of ${length(noise.stated_position)}. With that, ${missing} is missing.`
+      `instead of ${length(noise.stated_position)}. With that, ${missing}.`
     );
   }
   if (!shared) return null;
