@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::diagnose::{OtherNoise, Together, Verdict};
+use smash::diagnose::{Together, Verdict};
 use smash::files::{Output, print_bytes};
 use smash::improve::{Improvement, Rung};
 use smash::{Result, improve, improve_throws};
@@ -89,11 +89,8 @@ fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
         let scenes = if typed.has_several_scenes() { "SCENE SCENE …" } else { "SCENE" };
         next.push(format!("see what is left: smash diagnose {scenes}{with}"));
     }
-    if improvement.other_noise.is_some() {
-        next.insert(0, OtherNoise::MEND.to_string());
-    }
-    if let Some(shared) = &improvement.shared_errors {
-        next.insert(0, shared.mend());
+    if let Some(otherwise) = &improvement.otherwise {
+        next.insert(0, otherwise.mend.clone());
     }
     typed.advice(&next)
 }
@@ -146,11 +143,8 @@ fn write_words(
             "Something is left that no effect explains; --try takes a law of your own."
         )?,
     }
-    if let Some(noise) = &improvement.other_noise {
-        writeln!(out, "{}", noise.in_words())?;
-    }
-    if let Some(shared) = &improvement.shared_errors {
-        writeln!(out, "{}", shared.in_words())?;
+    if let Some(otherwise) = &improvement.otherwise {
+        writeln!(out, "{}", otherwise.words)?;
     }
     for one in &improvement.together {
         writeln!(out, "{}", one.in_words())?;

@@ -1,8 +1,6 @@
 //! What to film, measure or type next.
 
 use super::diagnosis::{Diagnosis, Verdict};
-use super::other_noise::OtherNoise;
-use super::shared_errors::SharedErrors;
 use crate::Scene;
 use crate::effect::{Effect, catalogue};
 use crate::reconstruct::refined::{Acting, Fitted, Instance};
@@ -47,11 +45,11 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
             );
         }
     }
-    let noise = diagnosis.other_noise.as_ref().map(|_| OtherNoise::MEND.to_string());
-    let errors = noise.or(diagnosis.shared_errors.as_ref().map(SharedErrors::mend));
-    // What has a name stays first.
-    let place = if diagnosis.missing().is_some() { advice.len() } else { 0 };
-    errors.into_iter().for_each(|errors| advice.insert(place, errors));
+    if let Some(otherwise) = &diagnosis.otherwise {
+        // What has a name stays first.
+        let place = if diagnosis.missing().is_some() { advice.len() } else { 0 };
+        advice.insert(place, otherwise.mend.clone());
+    }
     advice.retain(|line| !line.is_empty());
     advice
 }

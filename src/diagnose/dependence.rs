@@ -10,6 +10,8 @@ use super::Leftover;
 use crate::bridge::refined::ffi::RefinedPose;
 use crate::reconstruct::refined::Fitted;
 
+/// Coefficients of a smooth curve: a force bends a path by t², and the fit takes what it can of that.
+pub(super) const CURVE: usize = 5;
 /// Shorter series show no waves.
 const SHORTEST: usize = 8;
 
@@ -46,11 +48,9 @@ pub(super) fn waves_beside_curves(fitted: &Fitted) -> f64 {
     mean_length(fitted, beside_a_curve)
 }
 
-fn beside_a_curve(series: Vec<f64>) -> Vec<f64> {
-    /// A force bends a path by t², and the fit takes what it can of that.
-    const DEGREE: usize = 4;
+pub(super) fn beside_a_curve(series: Vec<f64>) -> Vec<f64> {
     let middle = 0.5 * (series.len() as f64 - 1.0);
-    let powers = DMatrix::from_fn(series.len(), DEGREE + 1, |row, degree| {
+    let powers = DMatrix::from_fn(series.len(), CURVE, |row, degree| {
         (row as f64 / middle - 1.0).powi(degree as i32)
     });
     let basis = powers.qr().q();

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::other_noise::OtherNoise;
+use super::otherwise::Otherwise;
 use super::rivals::OtherLaw;
-use super::shared_errors::SharedErrors;
 use super::together::Together;
 use super::unexplained::Unexplained;
 use crate::compare::ChannelTest;
@@ -52,13 +51,10 @@ pub struct Diagnosis {
     /// Of several throws: their restitution and mass ratio put together, with the effect that is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
-    /// Where χ² contradicts the stated noise and what is left looks random: the noise that the poses show.
+    /// What else than missing physics may leave what is left: errors of the poses that aren't as the model
+    /// takes them to be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub other_noise: Option<OtherNoise>,
-    /// Where what is left comes in waves that fewer poses don't show: how far apart poses must be for their
-    /// errors to be their own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shared_errors: Option<SharedErrors>,
+    pub otherwise: Option<Otherwise>,
     /// The answer in plain words.
     pub explanation: String,
     /// What to film or measure to tell candidates apart, and the command to type next.

@@ -17,6 +17,7 @@ mod goodness;
 mod held_out;
 mod leftover;
 mod misses;
+mod near_collision;
 mod other_noise;
 mod otherwise;
 mod own;
@@ -36,7 +37,9 @@ mod words;
 pub use diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
 };
+pub use near_collision::NearCollision;
 pub use other_noise::OtherNoise;
+pub use otherwise::{Cause, Otherwise};
 pub use rivals::OtherLaw;
 pub use shared_errors::SharedErrors;
 pub use throws::diagnose_throws;
@@ -52,7 +55,7 @@ pub(crate) use evidence::{critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::{HeldOut, held_out_rmse_m};
 pub(crate) use leftover::Leftover;
-pub(crate) use otherwise::{Explained, Otherwise};
+pub(crate) use otherwise::Explained;
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
 pub(crate) use rivals::rivals;
@@ -92,11 +95,13 @@ pub fn diagnose(
         let mut best = None;
         let diagnosis = diagnosed(scene, options, further, |fitted, _| {
             best = Some(fitted.clone());
-            Otherwise::default()
+            None
         })?;
-        let is_clear = diagnosis.verdict != Verdict::UnknownEffect && !diagnosis.stays_structured;
-        let missing = diagnosis.missing().map(CandidateReport::label).into_iter().collect();
-        Ok(best.filter(|_| is_clear).map(|fitted| Explained { missing, fitted }))
+        Ok(Explained {
+            missing: diagnosis.missing().map(CandidateReport::label).into_iter().collect(),
+            fitted: best.expect("each diagnosis asks what else it may be"),
+            leaves_more: diagnosis.verdict == Verdict::UnknownEffect || diagnosis.stays_structured,
+        })
     };
     diagnosed(scene, options, further, |fitted, is_structured| {
         Otherwise::of(scene, fitted, is_structured, explained)
@@ -108,7 +113,7 @@ fn diagnosed(
     scene: &Scene,
     options: &RefinedOptions,
     further: &[EffectRequest],
-    otherwise: impl FnOnce(&Fitted, bool) -> Otherwise,
+    otherwise: impl FnOnce(&Fitted, bool) -> Option<Otherwise>,
 ) -> Result<Diagnosis> {
     let fitted = refined::fit(scene, options)?;
     let instances = all_candidates(scene, &fitted, further)?;

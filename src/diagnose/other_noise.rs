@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::goodness::IMPROBABLE;
-use super::otherwise::Explained;
+use super::otherwise::{Cause, Explained, Otherwise};
 use crate::reconstruct::refined::Fitted;
 use crate::words::significant;
 use crate::{Result, Scene};
@@ -18,8 +18,7 @@ const HEAVY_TAILS: f64 = 1.5;
 /// The median of a normal deviate's size.
 const MEDIAN: f64 = 0.6745;
 
-/// The noise that the poses show by themselves, where χ² contradicts the stated one, and what is missing
-/// beside it.
+/// The noise that the poses show by themselves, where χ² contradicts the stated one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OtherNoise {
     /// One σ of a position coordinate, m.
@@ -30,46 +29,45 @@ pub struct OtherNoise {
     pub stated_position: f64,
     /// What the scene states for `orientation`; null with it.
     pub stated_orientation: Option<f64>,
-    /// `NAME@BODY` of the effects that are missing with that noise; empty where nothing is.
-    pub missing: Vec<String>,
 }
 
 impl OtherNoise {
-    /// What to do about it.
-    pub const MEND: &str = "check the noise that the scene states (`noise`): left out, it is estimated \
-                            from the poses";
-
-    /// Of `scene`, whose best model leaves `fitted`. `None` where it isn't so, or where a few wrong poses
-    /// would be taken for noise.
-    pub(super) fn of(
+    /// Of `scene`, whose best model leaves `fitted`. `None` where it isn't so, where even so something is
+    /// left over, or where a few wrong poses would be taken for noise.
+    pub(super) fn told(
         scene: &Scene,
         fitted: &Fitted,
-        explained: impl FnOnce(&Scene) -> Result<Option<Explained>>,
-    ) -> Result<Option<OtherNoise>> {
+        explained: impl FnOnce(&Scene) -> Result<Explained>,
+    ) -> Result<Option<Otherwise>> {
         let Some(stated) = scene.noise().filter(|_| contradicts(fitted)) else { return Ok(None) };
-        let Some(Explained { missing, mut fitted }) = explained(&scene.without_noise())? else {
-            return Ok(None);
-        };
+        let Explained { missing, mut fitted, leaves_more } = explained(&scene.without_noise())?;
         fitted.settle()?;
         let [position, orientation] = fitted.noise.estimates();
-        let told = position.filter(|_| !has_heavy_tails(&fitted));
-        Ok(told.map(|position| OtherNoise {
+        let is_noise = !leaves_more && !has_heavy_tails(&fitted);
+        let Some(position) = position.filter(|_| is_noise) else { return Ok(None) };
+        let noise = OtherNoise {
             position,
             orientation,
             stated_position: stated.position,
             stated_orientation: orientation.map(|_| stated.orientation),
+        };
+        Ok(Some(Otherwise {
+            words: noise.in_words(&missing),
+            mend: "check the noise that the scene states (`noise`): left out, it is estimated from the \
+                   poses"
+                .to_string(),
             missing,
+            cause: Cause::OtherNoise(noise),
         }))
     }
 
-    /// In a sentence.
-    pub fn in_words(&self) -> String {
+    fn in_words(&self, missing: &[String]) -> String {
         let orientations = self.orientation.zip(self.stated_orientation);
         let ratios: Vec<f64> = std::iter::once((self.position, self.stated_position))
             .chain(orientations)
             .map(|(shown, stated)| shown / stated)
             .collect();
-        let missing = match self.missing.as_slice() {
+        let missing = match missing {
             [] => "nothing is missing".to_string(),
             [one] => format!("{one} is all that is missing"),
             all => format!("{} are all that is missing", all.join(" and ")),

@@ -1,47 +1,70 @@
 //! What else than missing physics may leave what is left over: the poses' errors themselves.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::dependence::waves_beside_curves;
+use super::near_collision::NearCollision;
 use super::other_noise::OtherNoise;
 use super::shared_errors::{SharedErrors, WAVES};
 use crate::reconstruct::refined::Fitted;
 use crate::{Result, Scene};
 
-/// Errors of the poses that aren't as the model takes them to be: one of both, or neither.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Otherwise {
-    pub(crate) noise: Option<OtherNoise>,
-    pub(crate) shared: Option<SharedErrors>,
+/// Errors of the poses that aren't as the model takes them to be, and what is missing beside them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Otherwise {
+    /// What it may be.
+    pub cause: Cause,
+    /// `NAME@BODY` of the effects that are missing even so; empty where none is.
+    pub missing: Vec<String>,
+    /// The same in a sentence.
+    pub words: String,
+    /// What to do about it.
+    pub mend: String,
 }
 
-/// A scene that is explained to its noise.
+/// How the poses' errors may be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Cause {
+    /// Of another size than stated.
+    OtherNoise(OtherNoise),
+    /// Shared by neighbours.
+    SharedErrors(SharedErrors),
+    /// Large where the bodies touch.
+    NearCollision(NearCollision),
+}
+
+/// A scene as its best model explains it.
 pub(crate) struct Explained {
     /// The effects that its model lacked.
     pub(crate) missing: Vec<String>,
     /// The model with them.
     pub(crate) fitted: Fitted,
+    /// Whether that leaves something that no effect explains.
+    pub(crate) leaves_more: bool,
 }
 
 impl Otherwise {
     /// Of `scene`, whose best model leaves `fitted`, and that as more than noise if `is_structured`.
-    /// `explained`: another scene of the same collision; `None` where something is left over that no effect
-    /// explains. What can't be asked says nothing: the first answer stands.
+    /// `explained`: another scene of the same collision. What can't be asked says nothing: the first
+    /// answer stands.
     pub(crate) fn of(
         scene: &Scene,
         fitted: &Fitted,
         is_structured: bool,
-        explained: impl Fn(&Scene) -> Result<Option<Explained>>,
-    ) -> Otherwise {
+        explained: impl Fn(&Scene) -> Result<Explained>,
+    ) -> Option<Otherwise> {
+        if let Some(near) = NearCollision::of(scene, fitted).filter(|_| is_structured) {
+            return near.told(scene, fitted, explained).ok().flatten();
+        }
         // The size of independent noise makes no waves.
         match waves_beside_curves(fitted) < WAVES {
-            true => Otherwise {
-                noise: OtherNoise::of(scene, fitted, explained).ok().flatten(),
-                shared: None,
-            },
-            false if is_structured && !fitted.is_far_off() => Otherwise {
-                noise: None,
-                shared: SharedErrors::of(scene, fitted, explained).ok().flatten(),
-            },
-            false => Otherwise::default(),
+            true => OtherNoise::told(scene, fitted, explained).ok().flatten(),
+            false if is_structured && !fitted.is_far_off() => {
+                SharedErrors::told(scene, fitted, explained).ok().flatten()
+            }
+            false => None,
         }
     }
 }

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::dependence::{flights, waves};
-use super::otherwise::Explained;
+use super::otherwise::{Cause, Explained, Otherwise};
 use crate::reconstruct::refined::Fitted;
 use crate::{Result, Scene};
 
@@ -22,17 +22,16 @@ pub struct SharedErrors {
     pub correlation_length: f64,
     /// Every so manieth pose was kept, outwards from the collision.
     pub every: usize,
-    /// `NAME@BODY` of the effects that those show; empty where they show none.
-    pub missing: Vec<String>,
 }
 
 impl SharedErrors {
-    /// Of `scene`, whose best model leaves `fitted`; `None` where too few poses would be left.
-    pub(super) fn of(
+    /// Of `scene`, whose best model leaves `fitted`; `None` where too few poses would be left, or those
+    /// show something, too, that no effect explains.
+    pub(super) fn told(
         scene: &Scene,
         fitted: &Fitted,
-        explained: impl FnOnce(&Scene) -> Result<Option<Explained>>,
-    ) -> Result<Option<SharedErrors>> {
+        explained: impl FnOnce(&Scene) -> Result<Explained>,
+    ) -> Result<Option<Otherwise>> {
         let flights = flights(fitted).into_iter().map(|flight| flight.len());
         let shortest = flights.filter(|poses| *poses > 0).min().unwrap_or(0);
         let correlation_length = waves(fitted);
@@ -40,30 +39,26 @@ impl SharedErrors {
         if every * LEAST_LEFT > shortest {
             return Ok(None);
         }
-        let explained = explained(&scene.thinned(every, fitted.collision_time_s()))?;
-        let missing = explained.map(|explained| explained.missing);
-        Ok(missing.map(|missing| SharedErrors { correlation_length, every, missing }))
-    }
-
-    /// In a sentence.
-    pub fn in_words(&self) -> String {
-        let but = match self.missing.as_slice() {
+        let thinned = scene.thinned(every, fitted.collision_time_s());
+        let Explained { missing, leaves_more: false, .. } = explained(&thinned)? else {
+            return Ok(None);
+        };
+        let but = match missing.as_slice() {
             [] => String::new(),
             labels => format!(" but {}", labels.join(" and ")),
         };
-        format!(
-            "Or neighbouring poses share their errors, as after a tracker or a spline that smooths: one pose \
-             in {}, taken alone, shows nothing missing{but}. A weak force would hide there, too.",
-            self.every
-        )
-    }
-
-    /// What to do about it.
-    pub fn mend(&self) -> String {
-        format!(
-            "if the poses come from a tracker or a spline that smooths, keep one in {} of them: what their \
-             errors share is taken for physics",
-            self.every
-        )
+        Ok(Some(Otherwise {
+            words: format!(
+                "Or neighbouring poses share their errors, as after a tracker or a spline that smooths: \
+                 one pose in {every}, taken alone, shows nothing missing{but}. A weak force would hide \
+                 there, too."
+            ),
+            mend: format!(
+                "if the poses come from a tracker or a spline that smooths, keep one in {every} of them: \
+                 what their errors share is taken for physics"
+            ),
+            missing,
+            cause: Cause::SharedErrors(SharedErrors { correlation_length, every }),
+        }))
     }
 }

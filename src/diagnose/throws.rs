@@ -85,8 +85,7 @@ pub fn diagnose_throws(
         stays_structured,
         unexplained: Vec::new(),
         other_laws: Vec::new(),
-        other_noise: None,
-        shared_errors: None,
+        otherwise: None,
         together: match verdict {
             Verdict::Missing => match with_own(&throws, &candidates[0]) {
                 Some(own) => together(&own)?,

@@ -30,7 +30,7 @@ pub(super) fn diagnosis(
     fitted: &Fitted,
     instances: Vec<Instance>,
     mut candidates: Vec<Candidate>,
-    otherwise: impl FnOnce(&Fitted, bool) -> Otherwise,
+    otherwise: impl FnOnce(&Fitted, bool) -> Option<Otherwise>,
 ) -> Result<Diagnosis> {
     let result = reported(scene, fitted)?;
     let channels = channels(scene, &result)?;
@@ -112,8 +112,7 @@ pub(super) fn diagnosis(
         stays_structured,
         unexplained,
         other_laws,
-        other_noise: otherwise.noise,
-        shared_errors: otherwise.shared,
+        otherwise,
         together: Vec::new(),
         explanation: String::new(),
         advice: Vec::new(),

@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use super::FALSE_ALARM;
 use super::diagnosis::{CandidateReport, Diagnosis, Verdict};
-use super::other_noise::OtherNoise;
+use super::otherwise::Otherwise;
 use super::rivals::OtherLaw;
-use super::shared_errors::SharedErrors;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
 use crate::reconstruct::ParameterEstimate;
@@ -16,14 +15,17 @@ use crate::words::{counted, measured, significant, with_std};
 pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
     let model = if diagnosis.model.is_empty() { "The base model" } else { "The model" };
     let left: String = diagnosis.unexplained.iter().map(leftover).collect();
-    let noise = diagnosis.other_noise.as_ref().map(OtherNoise::in_words);
-    let errors = noise.or(diagnosis.shared_errors.as_ref().map(SharedErrors::in_words));
-    let errors = errors.map_or(String::new(), |errors| format!(" {errors}"));
+    let told = |otherwise: &Otherwise| format!(" {}", otherwise.words);
+    let errors = diagnosis.otherwise.as_ref().map_or(String::new(), told);
     match (diagnosis.verdict, diagnosis.candidates.first()) {
         (Verdict::NothingMissing, best) => nothing(model, diagnosis, best) + &errors,
         (Verdict::UnknownEffect, best) => {
             let best = best.filter(|best| best.stands_out);
-            unknown(model, best, diagnosis.other_laws.first()) + &errors + &left
+            // Before laws to try: of noise that is misstated each is made up.
+            format!("{model} misses the poses by more than their noise.")
+                + &errors
+                + &helping(best, diagnosis.other_laws.first())
+                + &left
         }
         (Verdict::Missing, Some(best)) => {
             missing(best, pair, diagnosis.stays_structured)
@@ -66,8 +68,9 @@ fn closest(best: &CandidateReport) -> String {
     )
 }
 
-fn unknown(model: &str, best: Option<&CandidateReport>, law: Option<&OtherLaw>) -> String {
-    let tried = match (best, law) {
+/// What helps, and doesn't explain it.
+fn helping(best: Option<&CandidateReport>, law: Option<&OtherLaw>) -> String {
+    match (best, law) {
         (Some(best), Some(law)) => format!(
             " The best candidate, {}, helps (χ² falls by {}), but a law that the catalogue hasn't \
              got explains it better (by {}): {}.",
@@ -83,8 +86,7 @@ fn unknown(model: &str, best: Option<&CandidateReport>, law: Option<&OtherLaw>) 
             significant(best.delta_chi2, 3)
         ),
         (None, _) => " No effect of the catalogue explains it.".to_string(),
-    };
-    format!("{model} misses the poses by more than their noise.{tried}")
+    }
 }
 
 impl OtherLaw {

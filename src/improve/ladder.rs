@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnose::{
-    OtherLaw, OtherNoise, SharedErrors, Together, Verdict, in_words, listed, telling_apart,
-};
+use crate::diagnose::{OtherLaw, Otherwise, Together, Verdict, in_words, listed, telling_apart};
 use crate::reconstruct::ParameterEstimate;
 use crate::{Reconstruction, Scene};
 
@@ -36,14 +34,10 @@ pub struct Improvement {
     /// of the ladder, or explains 95 % of what they do and more than any single one; the best first.
     #[serde(default)]
     pub other_laws: Vec<OtherLaw>,
-    /// Where χ² on the last rung contradicts the stated noise and what is left looks random: the noise that
-    /// the poses show.
+    /// What else than missing physics may leave what is left on the last rung: errors of the poses that
+    /// aren't as the model takes them to be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub other_noise: Option<OtherNoise>,
-    /// Where what is left on the last rung comes in waves that fewer poses don't show: how far apart poses
-    /// must be for their errors to be their own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shared_errors: Option<SharedErrors>,
+    pub otherwise: Option<Otherwise>,
     /// Of several throws: their restitution and mass ratio on the last rung, put together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
@@ -176,8 +170,7 @@ impl Improvement {
             verdict,
             result,
             other_laws: Vec::new(),
-            other_noise: None,
-            shared_errors: None,
+            otherwise: None,
             together: Vec::new(),
         }
     }

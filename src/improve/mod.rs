@@ -69,14 +69,9 @@ pub fn improve(
     let otherwise = Otherwise::of(scene, &fits[fits.len() - 1], found.is_structured, |scene| {
         let found = search::best_model(scene, &refined::fit(scene, options)?, further)?;
         let missing = found.steps.iter().map(|step| step.instance.label(scene)).collect();
-        Ok((!found.is_structured).then_some(Explained { missing, fitted: found.fitted }))
+        Ok(Explained { missing, fitted: found.fitted, leaves_more: found.is_structured })
     });
-    Ok(Improvement {
-        other_laws: found.other_laws,
-        other_noise: otherwise.noise,
-        shared_errors: otherwise.shared,
-        ..improvement
-    })
+    Ok(Improvement { other_laws: found.other_laws, otherwise, ..improvement })
 }
 
 /// A rung of the ladder that adds nothing yet.

@@ -124,6 +124,13 @@ impl Scene {
         Scene { noise: None, ..self.clone() }
     }
 
+    /// With these poses alone.
+    pub(crate) fn keeping(&self, is_kept: impl Fn(&Observation) -> bool) -> Scene {
+        let mut scene = self.clone();
+        scene.bodies.iter_mut().for_each(|body| body.observations.retain(&is_kept));
+        scene
+    }
+
     /// With one pose in `every`, outwards from `time_s`.
     pub(crate) fn thinned(&self, every: usize, time_s: f64) -> Scene {
         let mut scene = self.clone();

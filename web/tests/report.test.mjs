@@ -218,17 +218,21 @@ test('a noise that may be other than stated is told beside the verdict, and with
     changed(report, 'noisy.html', (data) => {
       data.diagnosis = null;
       data.models = [data.models[1]];
-      data.improvement.other_noise = {
-        position: 0.002,
-        orientation: null,
-        stated_position: 0.001,
-        stated_orientation: null,
+      data.improvement.otherwise = {
+        cause: {
+          kind: 'other_noise',
+          position: 0.002,
+          orientation: null,
+          stated_position: 0.001,
+          stated_orientation: null,
+        },
         missing: [],
+        words: 'The noise may be larger than stated: with 2.0 mm instead of 1.0 mm nothing is missing.',
+        mend: 'check the noise',
       };
     }),
     async (page) => {
-      const told =
-        /the poses show 2\.00 mm a coordinate instead of 1\.00 mm\. With that, nothing is missing\./;
+      const told = /with 2\.0 mm instead of 1\.0 mm nothing is missing\./;
       assert.match(await page.getByTestId('verdict').textContent(), told);
       assert.match(await page.getByTestId('otherwise').textContent(), told);
     },

@@ -10,6 +10,7 @@ mod objects;
 mod pairs;
 mod piped;
 mod shared_errors;
+mod soft_contact;
 mod strange;
 mod strong;
 mod stuck;

@@ -1,6 +1,6 @@
 //! Scenes whose noise isn't as they state it: random residuals of the wrong size are no physics.
 
-use smash::diagnose::{OtherNoise, Verdict};
+use smash::diagnose::{Cause, OtherNoise, Otherwise, Verdict};
 
 use super::*;
 
@@ -26,15 +26,23 @@ fn assert_shown(noise: &OtherNoise, factor: f64) {
     }
 }
 
+/// The noise that is told, and what is missing with it.
+fn told(otherwise: Option<Otherwise>) -> (OtherNoise, Vec<String>) {
+    match otherwise {
+        Some(Otherwise { cause: Cause::OtherNoise(noise), missing, .. }) => (noise, missing),
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn a_clean_scene_with_too_small_a_noise_may_have_a_larger_one() {
     for spec in [boxes(31), box_on_floor(32)] {
         let scene = stating(&with(spec, &[]).scene, 0.5);
         let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
         assert_eq!(diagnosis.verdict, Verdict::UnknownEffect, "{}", diagnosis.explanation);
-        let noise = diagnosis.other_noise.unwrap();
+        let (noise, missing) = told(diagnosis.otherwise.clone());
         assert_shown(&noise, 0.5);
-        assert!(noise.missing.is_empty(), "{noise:?}");
+        assert!(missing.is_empty(), "{missing:?}");
         assert!(diagnosis.explanation.contains("The noise may be larger than stated"));
         assert!(
             diagnosis.advice[0].contains("left out, it is estimated"),
@@ -42,7 +50,7 @@ fn a_clean_scene_with_too_small_a_noise_may_have_a_larger_one() {
             diagnosis.advice
         );
         let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
-        assert_eq!(improvement.other_noise, Some(noise));
+        assert_eq!(improvement.otherwise, diagnosis.otherwise);
     }
 }
 
@@ -52,9 +60,9 @@ fn beside_a_misstated_noise_the_effect_is_told_that_is_missing() {
     for factor in [0.5, 2.0] {
         let scene = stating(&simulation.scene, factor);
         let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
-        let noise = improvement.other_noise.unwrap();
+        let (noise, missing) = told(improvement.otherwise);
         assert_shown(&noise, factor);
-        assert_eq!(noise.missing, ["quadratic_drag@a"], "{factor}");
+        assert_eq!(missing, ["quadratic_drag@a"], "{factor}");
     }
 }
 
@@ -65,9 +73,9 @@ fn a_noise_that_is_stated_too_large_hides_nothing() {
     let scene = stating(&simulation.scene, 4.0);
     let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
     assert_eq!(diagnosis.verdict, Verdict::NothingMissing, "{}", diagnosis.explanation);
-    let noise = diagnosis.other_noise.unwrap();
+    let (noise, missing) = told(diagnosis.otherwise);
     assert_shown(&noise, 4.0);
-    assert_eq!(noise.missing, ["gravity_scale"]);
+    assert_eq!(missing, ["gravity_scale"]);
     assert!(diagnosis.explanation.contains("gravity_scale is all that is missing"));
 }
 
@@ -76,9 +84,9 @@ fn a_noise_that_is_stated_rightly_is_left_alone() {
     for effects in [&[][..], &[drag()]] {
         let scene = with(boxes(35), effects).scene;
         let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
-        assert_eq!(diagnosis.other_noise, None, "{}", diagnosis.explanation);
+        assert_eq!(diagnosis.otherwise, None, "{}", diagnosis.explanation);
         let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
-        assert_eq!(improvement.other_noise, None);
+        assert_eq!(improvement.otherwise, None);
     }
 }
 
@@ -93,8 +101,8 @@ fn beside_a_misstated_noise_a_law_of_ones_own_is_told() {
     let further = requests(&[format!("{law}@a:anchor=[0.3,2.2,-0.4]")]);
     let scene = stating(&scene, 0.5);
     let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &further).unwrap();
-    let noise = diagnosis.other_noise.expect(&diagnosis.explanation);
-    assert_eq!(noise.missing, ["tether@a"], "{}", diagnosis.explanation);
+    let (noise, missing) = told(diagnosis.otherwise);
+    assert_eq!(missing, ["tether@a"], "{}", diagnosis.explanation);
     assert_shown(&noise, 0.5);
 }
 
@@ -103,7 +111,7 @@ fn beside_a_misstated_noise_a_law_of_ones_own_is_told() {
 fn a_ball_s_noise_is_told_too() {
     let scene = stating(&with(plain_balls(36), &[]).scene, 0.5);
     let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
-    let noise = diagnosis.other_noise.expect(&diagnosis.explanation);
+    let (noise, _) = told(diagnosis.otherwise);
     assert!((noise.position / noise.stated_position - 2.0).abs() < 0.4, "{noise:?}");
     assert_eq!((noise.orientation, noise.stated_orientation), (None, None));
 }
@@ -136,5 +144,5 @@ fn wrong_poses_are_not_taken_for_noise() {
     }
     let scene = Scene::from_file(file).unwrap();
     let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
-    assert_eq!(improvement.other_noise, None);
+    assert_eq!(improvement.otherwise, None);
 }

@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use smash::diagnose::{Diagnosis, Verdict};
+use smash::diagnose::{Cause, Diagnosis, Otherwise, Verdict};
 
 use super::*;
 
@@ -48,14 +48,24 @@ fn diagnosis(scene: &Scene) -> Diagnosis {
     smash::diagnose(scene, &RefinedOptions::default(), &[]).unwrap()
 }
 
+/// Every so manieth pose, and what those show.
+fn shared(otherwise: Option<Otherwise>) -> (usize, Vec<String>) {
+    match otherwise {
+        Some(Otherwise { cause: Cause::SharedErrors(shared), missing, .. }) => {
+            (shared.every, missing)
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn smooth_errors_alone_may_be_all_that_is_left() {
     let told = diagnosis(&tracked(&dense(boxes(41), &[]), 1));
     assert_eq!(told.verdict, Verdict::UnknownEffect, "{}", told.explanation);
-    let shared = told.shared_errors.unwrap();
-    assert!(shared.missing.is_empty(), "{shared:?}");
+    let (every, missing) = shared(told.otherwise);
+    assert!(missing.is_empty(), "{missing:?}");
     assert!(told.explanation.contains("share their errors"), "{}", told.explanation);
-    assert!(told.advice[0].contains(&format!("keep one in {}", shared.every)), "{:?}", told.advice);
+    assert!(told.advice[0].contains(&format!("keep one in {every}")), "{:?}", told.advice);
 }
 
 #[test]
@@ -63,8 +73,8 @@ fn an_effect_is_told_beside_them() {
     let drag = effect("quadratic_drag", Some("a"), &[("k", &[0.2])]);
     let scene = tracked(&dense(boxes(42), &[drag]), 2);
     let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
-    let shared = improvement.shared_errors.unwrap();
-    assert_eq!(shared.missing, ["quadratic_drag@a"], "{shared:?}");
+    let (_, missing) = shared(improvement.otherwise);
+    assert_eq!(missing, ["quadratic_drag@a"]);
 }
 
 /// A force that no effect explains shows in fewer poses, too: errors are no excuse for it.
@@ -80,7 +90,7 @@ fn a_force_is_no_error_of_the_poses() {
         "{}",
         told.explanation
     );
-    assert_eq!(told.shared_errors, None, "{}", told.explanation);
+    assert_eq!(told.otherwise, None, "{}", told.explanation);
 }
 
 /// Independent noise makes no waves, beside a force that is too weak to be told either.
@@ -92,6 +102,6 @@ fn a_weak_force_beside_independent_noise_is_no_shared_error() {
         let mut spec = boxes(seed);
         spec.observations = every_frame();
         let told = diagnosis(&with(spec, &[coriolis]).scene);
-        assert_eq!(told.shared_errors, None, "{seed}: {}", told.explanation);
+        assert_eq!(told.otherwise, None, "{seed}: {}", told.explanation);
     }
 }

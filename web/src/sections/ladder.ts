@@ -17,32 +17,13 @@ const VERDICTS = {
   unknown_effect: 'Something is left that no effect of the catalogue explains.',
 };
 
-/** What else than missing physics may leave what is left: the poses' errors themselves. */
-export function otherwise({ other_noise: noise, shared_errors: shared }: Improvement): string | null {
-  if (noise) {
-    const labels = noise.missing.join(' and ');
-    const missing = labels ? `all that is missing is ${labels}` : 'nothing is missing';
-    return (
-      `The noise may be other than stated: the poses show ${length(noise.position)} a coordinate ` +
-      `instead of ${length(noise.stated_position)}. With that, ${missing}.`
-    );
-  }
-  if (!shared) return null;
-  const but = shared.missing.length > 0 ? ` but ${shared.missing.join(' and ')}` : '';
-  return (
-    `Neighbouring poses may share their errors, as after a tracker that smooths: one pose in ` +
-    `${shared.every}, taken alone, shows nothing missing${but}.`
-  );
-}
-
 export function ladder(improvement: Improvement): Child[] {
   const plot = ladderPlot(improvement.ladder);
   const dropped = improvement.dropped;
   const law = improvement.other_laws?.[0];
-  const errors = otherwise(improvement);
   return [
     element('p', {}, VERDICTS[improvement.verdict]),
-    errors && element('p', { 'data-testid': 'otherwise' }, errors),
+    improvement.otherwise && element('p', { 'data-testid': 'otherwise' }, improvement.otherwise.words),
     element(
       'figure',
       { class: 'plot' },

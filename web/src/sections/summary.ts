@@ -6,7 +6,6 @@ import { angle, length, significant, withDeviation, withUnit } from '../numbers'
 import type { Estimate, Model, Report } from '../report';
 import { flagInWords, label } from '../words';
 import type { Doubt } from '../words';
-import { otherwise } from './ladder';
 
 export function summary(report: Report, model: Model | null): HTMLElement[] {
   if (model === null) return [element('p', {}, 'This report holds no result.')];
@@ -44,7 +43,7 @@ function ofLadder(improvement: Report['improvement'], model: Model): string | nu
     improvement.verdict === 'unknown_effect'
       ? 'Something is left that no effect of the catalogue explains.'
       : 'Nothing more is missing that these poses could show.';
-  return [verdict, otherwise(improvement)].filter(Boolean).join(' ');
+  return [verdict, improvement.otherwise?.words].filter(Boolean).join(' ');
 }
 
 function hasEffects(model: Model, labels: string[]): boolean {

@@ -1,0 +1,77 @@
+//! Contacts that last: what the poses show meanwhile is no flight, and looks like an effect.
+
+use smash::diagnose::{Cause, Diagnosis, NearCollision, Otherwise};
+
+use super::*;
+
+/// How long bodies that give way touch, s: half of it is some six frames of 60 in a second.
+const TOUCH_S: f64 = 0.2;
+
+/// Every frame of 90, as a good tracker sees them.
+fn dense(mut spec: SimulationSpec) -> SimulationSpec {
+    spec.noise = NoiseSpec::Gaussian(Noise { position: 2e-4, orientation: 1e-3 });
+    spec.observations =
+        Sampling::Regular(RegularSampling { interval: 1, frame_count: 90, gap: None });
+    spec
+}
+
+/// The scene as if the impulse had been a constant force that lasts; outside of that time nothing changes.
+fn softened(simulation: &Simulation) -> Scene {
+    let mut file = simulation.scene.to_file();
+    for (body, truth) in file.bodies.iter_mut().zip(&simulation.truth.bodies) {
+        let jump = Vector3::from(truth.velocity_after) - Vector3::from(truth.velocity_before);
+        for pose in body.observations.as_mut().unwrap() {
+            let since_s = (pose.time.unwrap() - simulation.truth.collision_time).abs();
+            let left_s = (0.5 * TOUCH_S - since_s).max(0.0);
+            let shift = jump * (left_s * left_s / (2.0 * TOUCH_S));
+            pose.position = (Vector3::from(pose.position) + shift).into();
+        }
+    }
+    Scene::from_file(file).unwrap()
+}
+
+fn diagnosis(scene: &Scene) -> Diagnosis {
+    smash::diagnose(scene, &RefinedOptions::default(), &[]).unwrap()
+}
+
+/// What is missing without the poses of the contact, which explain all that is left.
+fn without_contact(otherwise: Option<Otherwise>) -> (NearCollision, Vec<String>) {
+    match otherwise {
+        Some(Otherwise { cause: Cause::NearCollision(near), missing, .. }) if !near.leaves_more => {
+            (near, missing)
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_contact_that_lasts_may_be_all_that_is_left() {
+    let simulation = with(dense(plain_balls(61)), &[]);
+    let told = diagnosis(&softened(&simulation));
+    let (near, missing) = without_contact(told.otherwise.clone());
+    assert!(missing.is_empty(), "{}", told.explanation);
+    // No end holds more than a quarter of its flight.
+    let since_s = |time_s: f64| (time_s - simulation.truth.collision_time).abs();
+    assert!(since_s(near.from_time).max(since_s(near.to_time)) < 2.0 * TOUCH_S, "{near:?}");
+    assert!(told.explanation.contains("Or it is the contact"), "{}", told.explanation);
+    assert!(told.advice.contains(&told.otherwise.unwrap().mend), "{:?}", told.advice);
+}
+
+#[test]
+fn beside_a_contact_that_lasts_the_effect_is_told_that_is_missing() {
+    let drag = effect("quadratic_drag", Some("a"), &[("k", &[0.2])]);
+    let scene = softened(&with(dense(plain_balls(62)), &[drag]));
+    let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
+    let (_, missing) = without_contact(improvement.otherwise);
+    assert_eq!(missing, ["quadratic_drag@a"]);
+}
+
+/// A force bends whole flights, also where no effect explains it.
+#[test]
+fn a_force_is_no_lasting_contact() {
+    let law = format!("{}/examples/effects/tether.toml", env!("CARGO_MANIFEST_DIR"));
+    let tether: [(&str, &[f64]); 3] =
+        [("stiffness", &[3.0]), ("length", &[0.9]), ("anchor", &[0.3, 2.2, -0.4])];
+    let told = diagnosis(&with(dense(plain_balls(63)), &[effect(&law, Some("a"), &tether)]).scene);
+    assert!(!told.explanation.contains("Or it is the contact"), "{}", told.explanation);
+}
