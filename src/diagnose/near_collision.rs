@@ -78,9 +78,11 @@ impl NearCollision {
         let shows = match (missing.as_slice(), leaves_more) {
             ([], false) => "nothing is missing".to_string(),
             ([], true) => "something is left still that no effect explains".to_string(),
-            (labels, false) => format!("{} is all that is missing", labels.join(" and ")),
-            (labels, true) => {
-                format!("{} is missing, and something is left still", labels.join(" and "))
+            ([one], false) => format!("{one} is all that is missing"),
+            (all, false) => format!("{} are all that is missing", all.join(" and ")),
+            ([one], true) => format!("{one} is missing, and something is left still"),
+            (all, true) => {
+                format!("{} are missing, and something is left still", all.join(" and "))
             }
         };
         let (from, to) = (rounded(self.from_time), rounded(self.to_time));
@@ -113,7 +115,9 @@ fn rough_end(path: &[[f64; 3]]) -> usize {
     let without_the_other = scatter_m(&path[..path.len() - most]);
     // Else a pose is off, or a push comes, farther from the end.
     let is_at_the_end = all - scatters_m[least / 2] > NEARER * (all - rest);
-    if all.min(without_the_other) > ROUGH * rest && is_at_the_end { least } else { 0 }
+    // A single pose that is off is no contact.
+    let is_rough = least > 1 && all.min(without_the_other) > ROUGH * rest;
+    if is_rough && is_at_the_end { least } else { 0 }
 }
 
 /// About a smooth curve, m.
