@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::dependence::{CURVE, beside_a_curve, flights};
-use super::otherwise::{Cause, Explained, Otherwise};
+use super::otherwise::{Cause, Explained, Otherwise, all_that_is_missing};
 use crate::reconstruct::refined::Fitted;
 use crate::words::{counted, rounded};
 use crate::{Result, Scene};
@@ -76,10 +76,8 @@ impl NearCollision {
             return Ok(None);
         }
         let shows = match (missing.as_slice(), leaves_more) {
-            ([], false) => "nothing is missing".to_string(),
+            (labels, false) => all_that_is_missing(labels),
             ([], true) => "something is left still that no effect explains".to_string(),
-            ([one], false) => format!("{one} is all that is missing"),
-            (all, false) => format!("{} are all that is missing", all.join(" and ")),
             ([one], true) => format!("{one} is missing, and something is left still"),
             (all, true) => {
                 format!("{} are missing, and something is left still", all.join(" and "))

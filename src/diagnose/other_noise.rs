@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::goodness::IMPROBABLE;
-use super::otherwise::{Cause, Explained, Otherwise};
+use super::otherwise::{Cause, Explained, Otherwise, all_that_is_missing};
 use crate::reconstruct::refined::Fitted;
 use crate::words::significant;
 use crate::{Result, Scene};
@@ -40,11 +40,15 @@ impl OtherNoise {
         explained: impl FnOnce(&Scene) -> Result<Explained>,
     ) -> Result<Option<Otherwise>> {
         let Some(stated) = scene.noise().filter(|_| contradicts(fitted)) else { return Ok(None) };
-        let Explained { missing, mut fitted, leaves_more } = explained(&scene.without_noise())?;
+        let Explained { missing, mut fitted, leaves_more: false } =
+            explained(&scene.without_noise())?
+        else {
+            return Ok(None);
+        };
         fitted.settle()?;
         let [position, orientation] = fitted.noise.estimates();
-        let is_noise = !leaves_more && !has_heavy_tails(&fitted);
-        let Some(position) = position.filter(|_| is_noise) else { return Ok(None) };
+        let told = position.filter(|_| !has_heavy_tails(&fitted));
+        let Some(position) = told else { return Ok(None) };
         let noise = OtherNoise {
             position,
             orientation,
@@ -67,11 +71,7 @@ impl OtherNoise {
             .chain(orientations)
             .map(|(shown, stated)| shown / stated)
             .collect();
-        let missing = match missing {
-            [] => "nothing is missing".to_string(),
-            [one] => format!("{one} is all that is missing"),
-            all => format!("{} are all that is missing", all.join(" and ")),
-        };
+        let missing = all_that_is_missing(missing);
         let digits = match ratios.iter().all(|ratio| (ratio - 1.0).abs() < AS_STATED) {
             true => 3,
             false => 2,

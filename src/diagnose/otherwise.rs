@@ -68,3 +68,12 @@ impl Otherwise {
         }
     }
 }
+
+/// Of effects by their labels, in words.
+pub(super) fn all_that_is_missing(labels: &[String]) -> String {
+    match labels {
+        [] => "nothing is missing".to_string(),
+        [one] => format!("{one} is all that is missing"),
+        all => format!("{} are all that is missing", all.join(" and ")),
+    }
+}
