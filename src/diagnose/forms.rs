@@ -71,7 +71,8 @@ const ROWS: [Row; 13] = {
             Acceleration,
             "cross(W, v)",
             &[("W", "1/s", 3)],
-            Some(&[]),
+            // Of a lone body whose spin is constant.
+            Some(&["magnus"]),
         ),
         (
             "the body's own directions: like a thrust",
@@ -105,7 +106,8 @@ static FORMS: LazyLock<Vec<LawForm>> = LazyLock::new(|| {
             (name.to_string(), unit.to_string(), *count)
         };
         let parameters: Vec<Parameter> = parameters.iter().map(own).collect();
-        let effect = law_of(&[(hook(kind), law)], &parameters);
+        let title = format!("A law that goes with {goes_with}");
+        let effect = Effect { title, ..law_of(&[(hook(kind), law)], &parameters) };
         LawForm { goes_with, kind, law, beyond, effect }
     };
     ROWS.into_iter().map(form).collect()
@@ -166,7 +168,7 @@ pub(super) fn law_of(laws: &[(&str, &str)], parameters: &[Parameter]) -> Effect 
         || laws.iter().any(|(hook, _)| *hook == "torque");
     let needs = if turns { "[\"orientation\"]" } else { "[]" };
     let mut text =
-        format!("name = \"form\"\ntitle = \"A law\"\nscope = \"{scope}\"\nneeds = {needs}\n");
+        format!("name = \"other_law\"\ntitle = \"A law\"\nscope = \"{scope}\"\nneeds = {needs}\n");
     for (name, unit, components) in parameters {
         let null = vec!["0.0"; *components].join(", ");
         let null = if *components == 1 { null } else { format!("[{null}]") };
@@ -175,7 +177,7 @@ pub(super) fn law_of(laws: &[(&str, &str)], parameters: &[Parameter]) -> Effect 
     text += "[law]\n";
     laws.iter().for_each(|(hook, law)| text += &format!("{hook} = \"{law}\"\n"));
     // The texts are made of the rows above, and a test makes each.
-    Effect::parse(&text, "form").expect("the forms' texts are good")
+    Effect::parse(&text, "other_law").expect("the forms' texts are good")
 }
 
 #[cfg(test)]

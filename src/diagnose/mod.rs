@@ -143,9 +143,13 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
         let others = instances.iter().filter(|instance| !promising.contains(instance));
         candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
     }
-    // It takes most of a diagnosis' time, and is needless beside one that leaves nothing.
+    // It takes most of a diagnosis' time, and is needless beside what leaves nothing.
     if fitted.is_lost() && candidates.iter().all(is_structured) {
+        let law = rivals::explaining(scene, fitted, instances.len());
         let again = |candidate: Candidate| {
+            if law.as_ref().is_some_and(|law| !law.holds(&candidate, scene)) {
+                return candidate;
+            }
             let with = fitted.again_quickly(scene, candidate.fitted.clone()).ok();
             with.and_then(judged).unwrap_or(candidate)
         };

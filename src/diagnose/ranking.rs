@@ -3,7 +3,8 @@
 use super::dependence::{inflation_of, quasi_bic};
 use super::leftover::Leftover;
 use super::misses::{Misses, most_counted};
-use super::{Candidate, OtherLaw};
+use super::Candidate;
+use super::rivals::Rival;
 use crate::{Result, Scene};
 
 /// Odds of a hundred and fifty to one and more tell two candidates apart, very strong evidence (Kass &
@@ -11,15 +12,16 @@ use crate::{Result, Scene};
 pub(crate) const TELLS_APART: f64 = 10.0;
 
 /// The probability of each candidate, of which `first` is the best, and that of none, by Schwarz's
-/// criterion and equal odds beforehand, also of `other_laws`; its differences count for less by
+/// criterion and equal odds beforehand, also of `rivals`; its differences count for less by
 /// `inflation`.
 pub(super) fn probabilities(
     candidates: &[Candidate],
     first: Option<&Candidate>,
-    other_laws: &[&OtherLaw],
+    rivals: &[&Rival],
     inflation: f64,
 ) -> (Vec<f64>, f64) {
-    let of_laws = other_laws.iter().map(|law| quasi_bic(law.bic, law.delta_chi2, inflation));
+    let of_laws =
+        rivals.iter().map(|law| quasi_bic(law.bic, law.evidence.delta_chi2, inflation));
     let against_none = |one: &Candidate| match first {
         // The first stays it, also where another with fewer parameters is as good.
         Some(first) => quasi(first, inflation) + behind(one, first, inflation).max(0.0),

@@ -7,11 +7,12 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::evidence::evidence;
+use super::evidence::{Evidence, evidence};
 use super::forms::{LawForm, forms, law_of};
 use super::ranking::TELLS_APART;
-use super::{Candidate, FALSE_ALARM, of_a_body};
+use super::{Candidate, FALSE_ALARM, Leftover, of_a_body, reported};
 use crate::effect::Effect;
+use crate::reconstruct::ActiveEffect;
 use crate::reconstruct::refined::{Fitted, Instance, gains, possible};
 use crate::{Result, Scene};
 
@@ -23,21 +24,48 @@ const WORTH: f64 = 0.3;
 /// A law of a simple form that isn't in the catalogue.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OtherLaw {
-    /// The body that it acts on; null for all.
-    pub body: Option<String>,
     /// What it goes with, in words.
     pub goes_with: String,
     /// As lines of an effect file's `[law]`, joined by `and`.
     pub law: String,
+    /// It as an effect, with its values.
+    pub effect: ActiveEffect,
     /// By how much χ² falls with it; as improbable, where the noise is estimated.
     pub delta_chi2: f64,
     /// How many independent numbers it adds.
     pub parameters_added: usize,
     /// Schwarz's criterion against the model without it; the smaller, the better.
     pub bic: f64,
+    /// Whether it leaves more than noise, too.
+    pub leaves_more: bool,
 }
 
-impl OtherLaw {
+/// The same, with the model that it extends.
+pub(crate) struct Rival {
+    pub(super) goes_with: String,
+    pub(super) law: String,
+    pub(crate) evidence: Evidence,
+    pub(crate) bic: f64,
+    pub(super) fitted: Fitted,
+}
+
+impl Rival {
+    /// `with`, which has one law more than `without`, one of `tried`.
+    fn new(
+        goes_with: String,
+        law: String,
+        (without, with): (&Fitted, Fitted),
+        tried: usize,
+    ) -> Option<Rival> {
+        let evidence = evidence(without, &with, 1, tried)?;
+        let bic = evidence.bic(with.numbers(), None);
+        Some(Rival { goes_with, law, evidence, bic, fitted: with })
+    }
+
+    fn instance(&self) -> &Instance {
+        &self.fitted.acting[self.fitted.acting.len() - 1].instance
+    }
+
     /// Whether a user's candidate is it, to the letter.
     pub(crate) fn is_the_law_of(&self, tried: &Instance) -> bool {
         let mut laws = tried.effect.sources.iter();
@@ -47,6 +75,11 @@ impl OtherLaw {
     /// Whether `candidate` is a special case of it, and does as well: then it takes no part of its
     /// probability, though it may be told.
     pub(super) fn is_needless_beside(&self, candidate: &Candidate, scene: &Scene) -> bool {
+        self.holds(candidate, scene) && candidate.bic - of_a_body(candidate.instance()) <= self.bic
+    }
+
+    /// Whether `candidate` is a special case of it.
+    pub(super) fn holds(&self, candidate: &Candidate, scene: &Scene) -> bool {
         let form = forms().iter().find(|form| form.line() == self.law);
         let held = form.and_then(|form| form.beyond).unwrap_or_default();
         let is_held = |name: &str| match name {
@@ -57,11 +90,27 @@ impl OtherLaw {
             _ => held.contains(&name),
         };
         let instance = candidate.instance();
-        let body = instance.body.map(|body| &scene.bodies()[body].name);
-        let is_same_body = scene.bodies().len() == 1 || body == self.body.as_ref();
-        is_same_body
-            && is_held(&instance.effect.name)
-            && candidate.bic - of_a_body(instance) <= self.bic
+        let is_same_body = scene.bodies().len() == 1 || instance.body == self.instance().body;
+        is_same_body && is_held(&instance.effect.name)
+    }
+
+    /// What it leaves over.
+    pub(super) fn rest(&self, scene: &Scene) -> Result<Leftover> {
+        Leftover::of(scene, &self.fitted)
+    }
+
+    /// As it stands in a file.
+    pub(crate) fn told(&self, scene: &Scene) -> Result<OtherLaw> {
+        let effect = reported(scene, &self.fitted)?.effects.pop();
+        Ok(OtherLaw {
+            goes_with: self.goes_with.clone(),
+            law: self.law.clone(),
+            effect: effect.expect("its model has one effect at least"),
+            delta_chi2: self.evidence.delta_chi2,
+            parameters_added: self.evidence.parameters,
+            bic: self.bic,
+            leaves_more: self.rest(scene)?.is_structured(),
+        })
     }
 }
 
@@ -70,9 +119,8 @@ impl OtherLaw {
 pub(super) fn lasting_push(
     fitted: &Fitted,
     candidate: &Candidate,
-    scene: &Scene,
     tried: usize,
-) -> Option<OtherLaw> {
+) -> Option<Rival> {
     /// Two bodies hardly touch for half of it.
     const LASTING_S: f64 = 0.1;
     let acting = candidate.fitted.acting.last()?;
@@ -92,16 +140,10 @@ pub(super) fn lasting_push(
     let spread = (1..acting.count).map(|place| number(place) / (to_s - from_s));
     let values: Vec<f64> = [from_s, 1.0 / (to_s - from_s)].into_iter().chain(spread).collect();
     let with = fitted.with_from(&instance, &candidate.fitted, &values).ok()?;
-    let evidence = evidence(fitted, &with, 1, tried + 1)?;
-    let bic = evidence.bic(with.numbers(), None);
-    (bic < candidate.bic + TELLS_APART).then(|| OtherLaw {
-        body: Some(scene.bodies()[body].name.clone()),
-        goes_with: format!("time: a push that lasts, from {from_s:.3} s to {to_s:.3} s"),
-        law: PUSH.map(|(hook, law)| format!("{hook} = \"{law}\"")).join(" and "),
-        delta_chi2: evidence.delta_chi2,
-        parameters_added: evidence.parameters,
-        bic,
-    })
+    let goes_with = format!("time: a push that lasts, from {from_s:.3} s to {to_s:.3} s");
+    let law = PUSH.map(|(hook, law)| format!("{hook} = \"{law}\"")).join(" and ");
+    let push = Rival::new(goes_with, law, (fitted, with), tried + 1)?;
+    (push.bic < candidate.bic + TELLS_APART).then_some(push)
 }
 
 /// The laws of a push that lasts, by their hooks: it rises and falls evenly, since no flight can be
@@ -122,9 +164,16 @@ fn push() -> Effect {
     law_of(&PUSH, &own.map(|(name, unit, count)| (name.to_string(), unit.to_string(), count)))
 }
 
+/// The best of [`rivals`] if it leaves nothing but noise.
+pub(super) fn explaining(scene: &Scene, fitted: &Fitted, tried: usize) -> Option<Rival> {
+    let best = rivals(scene, fitted, tried).ok()?.into_iter().next()?;
+    let leaves_more = best.rest(scene).ok()?.is_structured();
+    (!leaves_more).then_some(best)
+}
+
 /// The laws that explain `scene` significantly better than its model, the best first. `tried`: how
 /// many candidates there are beside them.
-pub(crate) fn rivals(scene: &Scene, fitted: &Fitted, tried: usize) -> Result<Vec<OtherLaw>> {
+pub(crate) fn rivals(scene: &Scene, fitted: &Fitted, tried: usize) -> Result<Vec<Rival>> {
     let foreign = forms().iter().filter(|form| form.beyond.is_some());
     let all: Vec<(&LawForm, Instance)> = foreign
         .flat_map(|form| possible(scene, &form.effect).into_iter().map(move |one| (form, one)))
@@ -142,17 +191,10 @@ pub(crate) fn rivals(scene: &Scene, fitted: &Fitted, tried: usize) -> Result<Vec
     let refitted = |index: &usize| {
         let (form, instance) = &all[*index];
         let with = fitted.with_quickly(scene, instance).ok()?;
-        let evidence = evidence(fitted, &with, 1, tried)?;
-        (evidence.p_value < FALSE_ALARM).then(|| OtherLaw {
-            body: instance.body.map(|body| scene.bodies()[body].name.clone()),
-            goes_with: form.goes_with.to_string(),
-            law: form.line(),
-            delta_chi2: evidence.delta_chi2,
-            parameters_added: evidence.parameters,
-            bic: evidence.bic(with.numbers(), None),
-        })
+        let rival = Rival::new(form.goes_with.to_string(), form.line(), (fitted, with), tried)?;
+        (rival.evidence.p_value < FALSE_ALARM).then_some(rival)
     };
-    let mut rivals: Vec<OtherLaw> = order.par_iter().filter_map(refitted).collect();
+    let mut rivals: Vec<Rival> = order.par_iter().filter_map(refitted).collect();
     rivals.sort_by(|a, b| a.bic.total_cmp(&b.bic));
     Ok(rivals)
 }

@@ -2,11 +2,13 @@
 //! time on either side of the collision, and which simple law they look like.
 
 use nalgebra::Vector3;
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::evidence::by_chance;
 use super::forms::{LawForm, forms, free};
+use super::verdict::EXPLAINS;
 use crate::reconstruct::refined::{Fitted, Gain, Instance, gains, possible};
 use crate::{Result, Scene};
 
@@ -28,7 +30,7 @@ pub struct Unexplained {
     pub rms: f64,
     /// Its mean over the same poses, in the world.
     pub mean: [f64; 3],
-    /// Simple laws that it looks like, the likeliest first.
+    /// Simple laws that it looks like, the likeliest first; none where the model is far off.
     pub forms: Vec<Form>,
 }
 
@@ -99,6 +101,32 @@ pub(crate) fn unexplained(scene: &Scene, fitted: &Fitted) -> Result<Vec<Unexplai
     found.retain(|(chance, _, _)| *chance < super::FALSE_ALARM);
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(found.iter().map(|(_, tried, gain)| described(scene, fitted, tried, gain, &laws)).collect())
+}
+
+/// The one that explains most where `fitted` is far off: found by fits, since slopes foretell little, and
+/// what they say of the other bodies is but how this one bends the model. Forms aren't told.
+pub(super) fn clearest(scene: &Scene, fitted: &Fitted) -> Option<Unexplained> {
+    let tried = |kind: Kind| {
+        let degree = DEGREES[DEGREES.len() - 1];
+        let instances = possible(scene, &free(kind, degree)).into_iter();
+        instances.map(move |instance| Tried { kind, degree, instance })
+    };
+    let all: Vec<Tried> = [Kind::Acceleration, Kind::Torque].into_iter().flat_map(tried).collect();
+    let fit = |one: &Tried| {
+        let with = fitted.with_at_once(scene, &one.instance).ok()?;
+        let acting = with.acting.last()?;
+        let values = &with.best().solution.unknowns.parameters[acting.first..];
+        Some(Gain {
+            chi2: fitted.fall_to(&with),
+            directions: with.directions(acting),
+            step: values.to_vec(),
+        })
+    };
+    let gains: Vec<Option<Gain>> = all.par_iter().map(fit).collect();
+    let found = all.iter().zip(gains).filter_map(|(tried, gain)| Some((tried, gain?)));
+    let (tried, gain) = found.max_by(|a, b| a.1.chi2.total_cmp(&b.1.chi2))?;
+    let explains = gain.chi2 > EXPLAINS * fitted.chi2();
+    explains.then(|| described(scene, fitted, tried, &gain, &[]))
 }
 
 fn described(

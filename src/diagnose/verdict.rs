@@ -6,9 +6,9 @@ use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verd
 use super::leftover::Leftover;
 use super::otherwise::Otherwise;
 use super::ranking::{TELLS_APART, first, look_alikes, probabilities, rank};
-use super::rivals::{OtherLaw, lasting_push, rivals};
+use super::rivals::{OtherLaw, Rival, lasting_push, rivals};
 use super::swing::swings;
-use super::unexplained::unexplained;
+use super::unexplained::{clearest, unexplained};
 use super::words::explanation;
 use super::{Candidate, Goodness, reported, tried};
 use crate::compare::channels;
@@ -43,12 +43,12 @@ pub(super) fn diagnosis(
         true => second(scene, &candidates, &instances),
         false => None,
     };
-    let mut other_laws = match first {
+    let mut laws = match first {
         Some(_) => rivals(scene, fitted, instances.len())?,
         None => Vec::new(),
     };
-    other_laws.retain(|law| !instances.iter().any(|tried| law.is_the_law_of(tried)));
-    let weighed: Vec<&OtherLaw> = other_laws
+    laws.retain(|law| !instances.iter().any(|tried| law.is_the_law_of(tried)));
+    let weighed: Vec<&Rival> = laws
         .iter()
         .filter(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)))
         .collect();
@@ -59,8 +59,8 @@ pub(super) fn diagnosis(
             let pair = second.iter().map(|(bic, _)| *bic);
             let bic = good.map(|candidate| candidate.bic).chain(pair).fold(0.0, f64::min);
             // By the usual criterion, whatever is left: to name nothing is the safer answer.
-            let is_beaten = other_laws.iter().any(|law| law.bic < bic - TELLS_APART);
-            other_laws.retain(|law| law.bic < bic + TELLS_APART);
+            let is_beaten = laws.iter().any(|law| law.bic < bic - TELLS_APART);
+            laws.retain(|law| law.bic < bic + TELLS_APART);
             match is_beaten || (second.is_none() && !explains(first, &before, rest)) {
                 true => Verdict::UnknownEffect,
                 false => Verdict::Missing,
@@ -71,17 +71,26 @@ pub(super) fn diagnosis(
     };
     // An impact is a push that is short: it takes no part in what decides.
     let named = first.filter(|_| verdict == Verdict::Missing);
-    let lasting = named.and_then(|first| lasting_push(fitted, first, scene, instances.len()));
-    other_laws.extend(lasting);
-    other_laws.sort_by(|a, b| a.bic.total_cmp(&b.bic));
-    let mut unexplained = match (verdict, rest) {
-        (Verdict::UnknownEffect, _) => unexplained(scene, fitted)?,
-        (_, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
+    let lasting = named.and_then(|first| lasting_push(fitted, first, instances.len()));
+    laws.extend(lasting);
+    laws.sort_by(|a, b| a.bic.total_cmp(&b.bic));
+    // The best that there is for what is missing, with a name or without.
+    let best = named.map(|first| &first.fitted);
+    let law = laws.first().filter(|_| verdict == Verdict::UnknownEffect);
+    let best = best.or(law.map(|law| &law.fitted)).unwrap_or(fitted);
+    let mut unexplained = match (verdict, law, rest) {
+        (Verdict::UnknownEffect, Some(law), _) => law.rest(scene)?.unexplained,
+        (Verdict::UnknownEffect, None, _) => unexplained(scene, fitted)?,
+        (_, _, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
     };
-    if stays_structured || verdict == Verdict::UnknownEffect {
-        let told = first.filter(|_| verdict == Verdict::Missing);
-        unexplained.extend(swings(scene, told.map_or(fitted, |first| &first.fitted))?);
+    if best.is_far_off() {
+        unexplained = clearest(scene, best).into_iter().collect();
     }
+    if stays_structured || verdict == Verdict::UnknownEffect {
+        unexplained.extend(swings(scene, best)?);
+    }
+    let other_laws: Vec<OtherLaw> =
+        laws.iter().map(|law| law.told(scene)).collect::<Result<_>>()?;
     // What doesn't predict better never comes first.
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]));
@@ -98,6 +107,8 @@ pub(super) fn diagnosis(
         .collect::<Result<Vec<_>>>()?;
     let otherwise = match named {
         Some(first) => otherwise(&first.fitted, stays_structured),
+        // Poses that a law explains to their noise need no other explanation.
+        None if law.is_some() && !other_laws[0].leaves_more => None,
         None => otherwise(fitted, verdict == Verdict::UnknownEffect),
     };
     let mut diagnosis = Diagnosis {
@@ -155,7 +166,13 @@ fn second(
     candidates: &[Candidate],
     instances: &[Instance],
 ) -> Option<(f64, String)> {
-    let firsts = candidates.iter().filter(|candidate| candidate.stands_out()).take(FIRSTS);
+    let firsts = candidates.iter().filter(|candidate| candidate.stands_out());
+    // What is still far off hardly needs but one.
+    let firsts = firsts
+        .enumerate()
+        .filter(|(rank, first)| *rank == 0 || !first.fitted.is_far_off())
+        .map(|(_, first)| first)
+        .take(FIRSTS);
     let mut pairs: Vec<(f64, String, bool)> = Vec::new();
     for first in firsts {
         let own = first.instance().label(scene);

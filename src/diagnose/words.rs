@@ -73,11 +73,15 @@ fn helping(best: Option<&CandidateReport>, law: Option<&OtherLaw>) -> String {
     match (best, law) {
         (Some(best), Some(law)) => format!(
             " The best candidate, {}, helps (χ² falls by {}), but a law that the catalogue hasn't \
-             got explains it better (by {}): {}.",
+             got explains it better (by {}): {}. {}.",
             best.label(),
             significant(best.delta_chi2, 3),
             significant(law.delta_chi2, 3),
-            law.in_words()
+            law.in_words(),
+            match law.leaves_more {
+                true => "Something is left even with it",
+                false => "With it nothing is left but noise",
+            }
         ),
         (Some(best), None) => format!(
             " The best candidate, {}, helps (χ² falls by {}), but leaves too much: don't take it for \
@@ -90,10 +94,11 @@ fn helping(best: Option<&CandidateReport>, law: Option<&OtherLaw>) -> String {
 }
 
 impl OtherLaw {
-    /// What it is, with the line to try.
+    /// What it is, with its line and values.
     pub fn in_words(&self) -> String {
-        let body = self.body.as_ref().map_or("all bodies".to_string(), String::clone);
-        format!("on {body}, one that goes with {}; try {}", self.goes_with, self.law)
+        let body = self.effect.body.as_deref().unwrap_or("all bodies");
+        let values = in_words(&self.effect.parameters);
+        format!("on {body}, one that goes with {}: {} with {values}", self.goes_with, self.law)
     }
 }
 

@@ -111,16 +111,17 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
         });
     }
     let tried = all_candidates(scene, base, further)?;
-    let mut other_laws = rivals(scene, base, tried.len())?;
+    let mut laws = rivals(scene, base, tried.len())?;
     let gain = base.fall_to(&best.fitted);
-    other_laws.retain(|law| {
+    laws.retain(|law| {
         let is_better_than_one = law.bic < single_bic - TELLS_APART;
         let does_as_well = law.bic < best.bic + TELLS_APART
-            || (is_better_than_one && law.delta_chi2 > NEARLY_ALL * gain);
+            || (is_better_than_one && law.evidence.delta_chi2 > NEARLY_ALL * gain);
         does_as_well && !tried.iter().any(|tried| law.is_the_law_of(tried))
     });
-    let is_beaten = other_laws.iter().any(|law| law.bic < best.bic - TELLS_APART);
+    let is_beaten = laws.iter().any(|law| law.bic < best.bic - TELLS_APART);
     let is_structured = is_beaten || Leftover::of(scene, &best.fitted)?.is_structured();
+    let other_laws = laws.iter().map(|law| law.told(scene)).collect::<Result<_>>()?;
     Ok(Found { steps: best.steps, fitted: best.fitted, dropped, is_structured, other_laws })
 }
 

@@ -49,6 +49,15 @@ impl Fitted {
         Ok(Fitted { refined, acting: Vec::new(), optima, noise, loss, segments, phases, stated })
     }
 
+    /// The same model of another scene.
+    ///
+    /// # Errors
+    /// No start leads to a solution.
+    pub(crate) fn of(&self, scene: &Scene) -> Result<Fitted> {
+        let base = Fitted::base(scene, self.refined.tilt_std_rad, self.loss)?;
+        self.acting.iter().try_fold(base, |fitted, acting| fitted.with(scene, &acting.instance))
+    }
+
     /// With one effect more. At the same noise χ² is never larger than without it.
     ///
     /// # Errors
