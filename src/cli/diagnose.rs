@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::diagnose::{CandidateReport, Diagnosis};
+use smash::diagnose::{CandidateReport, Diagnosis, Verdict};
 use smash::files::{Output, print_bytes};
 use smash::{Result, diagnose, diagnose_throws};
 
@@ -81,11 +81,21 @@ fn write_words(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
     ];
     rows.extend(diagnosis.candidates.iter().map(row));
     writeln!(out, "{}", aligned(&rows))?;
+    match diagnosis.verdict {
+        Verdict::UnknownEffect => writeln!(
+            out,
+            "No candidate explains the poses: the probabilities are how they compare with each other."
+        )?,
+        _ => writeln!(
+            out,
+            "The probability that nothing is missing: {}.",
+            probability(diagnosis.probability_of_nothing)
+        )?,
+    }
     writeln!(
         out,
-        "The probability that nothing is missing: {}. A p-value counts all candidates. Held out: how \
-         far\nthe fit misses positions that it hasn't seen, without and with the effect.",
-        probability(diagnosis.probability_of_nothing)
+        "A p-value counts all candidates. Held out: how far the fit misses positions that it hasn't \
+         seen,\nwithout and with the effect."
     )?;
     if !diagnosis.advice.is_empty() {
         writeln!(out, "\nNext")?;

@@ -76,14 +76,9 @@ fn commands(improvement: &Improvement, typed: &Typed) -> Vec<String> {
 /// What to film, and what to type next.
 fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
     let mut next: Vec<String> = improvement.telling_apart();
-    if !improvement.other_laws.is_empty() {
-        next.push(
-            "write that law into a file (start from one of examples/effects), and try it: smash \
-             improve SCENE --try ./law.toml"
-                .to_string(),
-        );
-    }
-    if improvement.verdict == Verdict::UnknownEffect {
+    let law = improvement.other_laws.first();
+    next.extend(law.map_or(Vec::new(), |law| law.trying("")));
+    if improvement.verdict == Verdict::UnknownEffect && law.is_none() {
         let with = improvement.ladder.last().map_or(&[][..], |rung| &rung.with);
         let with: String = with.iter().map(|label| format!(" --with {label}")).collect();
         let scenes = if typed.has_several_scenes() { "SCENE SCENE …" } else { "SCENE" };
@@ -116,7 +111,9 @@ fn write_words(
     }
     if let Some(law) = improvement.other_laws.first() {
         let does = match improvement.ladder.len() {
-            ..=2 => "does as well",
+            1 if law.leaves_more => "explains nearly all that is missing, though not all",
+            1 => "explains the poses to their noise",
+            2 => "does as well",
             _ => "does as well or nearly so, and may be what these effects imitate together",
         };
         writeln!(out, "A law alone that the catalogue hasn't got {does}: {}.\n", law.in_words())?;

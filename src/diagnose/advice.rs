@@ -1,8 +1,10 @@
 //! What to film, measure or type next.
 
 use super::diagnosis::{Diagnosis, Verdict};
+use super::rivals::OtherLaw;
 use crate::Scene;
 use crate::effect::{Effect, catalogue};
+use crate::files::shell_word;
 use crate::reconstruct::refined::{Acting, Fitted, Instance};
 
 /// The advice that goes with a diagnosis; in its commands SCENE is the scene's file.
@@ -26,10 +28,13 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
                 "look where the model fails: smash reconstruct SCENE{known} -o result.json, then smash \
                  compare SCENE result.json --svg plots"
             ));
-            advice.push(format!(
-                "write the law that you suspect into a file (start from one of examples/effects) and try \
-                 it: smash diagnose SCENE{known} --try ./law.toml"
-            ));
+            advice.extend(match diagnosis.other_laws.first() {
+                Some(law) => law.trying(&known),
+                None => vec![format!(
+                    "write the law that you suspect into a file (start from one of examples/effects) and \
+                     try it: smash diagnose SCENE{known} --try ./law.toml"
+                )],
+            });
         }
         _ => {
             if diagnosis.reduced_chi2.is_none() {
@@ -52,6 +57,21 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
     }
     advice.retain(|line| !line.is_empty());
     advice
+}
+
+impl OtherLaw {
+    /// The commands that keep it in a file, and add it to a model with the `known` effects.
+    pub fn trying(&self, known: &str) -> Vec<String> {
+        let Some(effect) = &self.effect.definition else { return Vec::new() };
+        let file = format!("{}.toml", effect.name);
+        let body = self.effect.body.as_ref().map_or(String::new(), |body| format!("@{body}"));
+        let with = format!("SCENE{known} --with ./{file}{body}");
+        vec![
+            format!("keep that law: printf %s {} > {file}", shell_word(&effect.to_toml())),
+            format!("add it: smash reconstruct {with} -o result.json"),
+            format!("look for more: smash improve {with}"),
+        ]
+    }
 }
 
 /// What to do about a user's law that couldn't be fitted, or that nothing depends on.

@@ -51,7 +51,7 @@ pub(crate) use best_of_throws::{alike, put_best_first, with_effect, with_own};
 pub(crate) use candidates::{Candidate, all_candidates, candidate, of_a_body};
 pub(crate) use dependence::{inflation_of, quasi_bic};
 pub(crate) use diagnosis::yes;
-pub(crate) use evidence::{critical_chi2, evidence};
+pub(crate) use evidence::{Evidence, critical_chi2, evidence};
 pub(crate) use goodness::Goodness;
 pub(crate) use held_out::{HeldOut, held_out_rmse_m};
 pub(crate) use leftover::Leftover;

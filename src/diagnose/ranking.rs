@@ -1,9 +1,9 @@
 //! Probabilities of the candidates, and which of them can't be told apart.
 
+use super::Candidate;
 use super::dependence::{inflation_of, quasi_bic};
 use super::leftover::Leftover;
 use super::misses::{Misses, most_counted};
-use super::Candidate;
 use super::rivals::Rival;
 use crate::{Result, Scene};
 
@@ -20,8 +20,7 @@ pub(super) fn probabilities(
     rivals: &[&Rival],
     inflation: f64,
 ) -> (Vec<f64>, f64) {
-    let of_laws =
-        rivals.iter().map(|law| quasi_bic(law.bic, law.evidence.delta_chi2, inflation));
+    let of_laws = rivals.iter().map(|law| quasi_bic(law.bic, law.evidence.delta_chi2, inflation));
     let against_none = |one: &Candidate| match first {
         // The first stays it, also where another with fewer parameters is as good.
         Some(first) => quasi(first, inflation) + behind(one, first, inflation).max(0.0),

@@ -116,11 +116,7 @@ impl Rival {
 
 /// A push that lasts for a tenth of a second, where `candidate`, which extends `fitted`,
 /// is an impact at a time of its own, and the poses can't tell the two apart. `tried`: how many candidates there are beside it.
-pub(super) fn lasting_push(
-    fitted: &Fitted,
-    candidate: &Candidate,
-    tried: usize,
-) -> Option<Rival> {
+pub(super) fn lasting_push(fitted: &Fitted, candidate: &Candidate, tried: usize) -> Option<Rival> {
     /// Two bodies hardly touch for half of it.
     const LASTING_S: f64 = 0.1;
     let acting = candidate.fitted.acting.last()?;

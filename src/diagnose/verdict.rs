@@ -38,16 +38,19 @@ pub(super) fn diagnosis(
     let (inflation, rest) = rank(scene, &mut candidates)?;
     let first = first(&candidates);
     let stays_structured = rest.as_ref().is_some_and(Leftover::is_structured);
-    // Where the noise isn't known, what is left says little of a second.
-    let second = match stays_structured && fitted.has_stated_noise() {
-        true => second(scene, &candidates, &instances),
-        false => None,
-    };
     let mut laws = match first {
         Some(_) => rivals(scene, fitted, instances.len())?,
         None => Vec::new(),
     };
     laws.retain(|law| !instances.iter().any(|tried| law.is_the_law_of(tried)));
+    // Far off, a law that leaves nothing needs no pair beside it: to look for one takes long.
+    let law_explains = fitted.is_far_off()
+        && laws.first().is_some_and(|law| law.rest(scene).is_ok_and(|rest| !rest.is_structured()));
+    // Where the noise isn't known, what is left says little of a second.
+    let second = match stays_structured && fitted.has_stated_noise() && !law_explains {
+        true => second(scene, &candidates, &instances),
+        false => None,
+    };
     let weighed: Vec<&Rival> = laws
         .iter()
         .filter(|law| !first.is_some_and(|first| law.is_needless_beside(first, scene)))
@@ -93,7 +96,8 @@ pub(super) fn diagnosis(
         laws.iter().map(|law| law.told(scene)).collect::<Result<_>>()?;
     // What doesn't predict better never comes first.
     let mut order: Vec<usize> = (0..candidates.len()).collect();
-    order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]));
+    let bic = |index: usize| candidates[index].bic;
+    order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]).then(bic(a).total_cmp(&bic(b))));
     order.sort_by_key(|&index| !candidates[index].stands_out());
     let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
     let is_told =

@@ -68,6 +68,7 @@ pub struct Effect {
     #[serde(rename = "law")]
     pub sources: BTreeMap<Hook, String>,
     /// For people.
+    #[serde(skip_serializing_if = "Help::is_empty")]
     pub help: Help,
     /// The file that it was read from, as it was named; `None` for the catalogue's.
     #[serde(skip)]
@@ -110,6 +111,7 @@ pub struct Parameter {
     #[serde(skip_serializing_if = "Frame::is_world")]
     pub frame: Frame,
     /// Real sizes, in words.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub typical: String,
     /// Start values to be tried, where the law doesn't depend on this at the null.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -193,6 +195,12 @@ pub struct Help {
     /// Where the law is from.
     #[serde(default)]
     pub source: String,
+}
+
+impl Help {
+    fn is_empty(&self) -> bool {
+        *self == Help::default()
+    }
 }
 
 impl Need {

@@ -66,11 +66,16 @@ pub fn improve(
         (false, false) => Verdict::Missing,
     };
     let improvement = Improvement::new(scene, verdict, rungs, found.dropped, result.clone());
-    let otherwise = Otherwise::of(scene, &fits[fits.len() - 1], found.is_structured, |scene| {
+    let asked_again = |scene: &Scene| {
         let found = search::best_model(scene, &refined::fit(scene, options)?, further)?;
         let missing = found.steps.iter().map(|step| step.instance.label(scene)).collect();
         Ok(Explained { missing, fitted: found.fitted, leaves_more: found.is_structured })
-    });
+    };
+    let otherwise = match found.other_laws.first() {
+        // Poses that a law explains to their noise need no other explanation.
+        Some(law) if found.steps.is_empty() && !law.leaves_more => None,
+        _ => Otherwise::of(scene, &fits[fits.len() - 1], found.is_structured, asked_again),
+    };
     Ok(Improvement { other_laws: found.other_laws, otherwise, ..improvement })
 }
 

@@ -3,8 +3,8 @@
 //! superfluous is dropped at the end.
 
 use crate::diagnose::{
-    Candidate, FALSE_ALARM, Goodness, Leftover, OtherLaw, TELLS_APART, all_candidates, evidence,
-    inflation_of, look_alikes, of_a_body, quasi, quasi_bic, rivals, tried,
+    Candidate, Evidence, FALSE_ALARM, Goodness, Leftover, OtherLaw, TELLS_APART, all_candidates,
+    evidence, inflation_of, look_alikes, of_a_body, quasi, quasi_bic, rivals, tried,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{Fitted, Instance, points};
@@ -61,6 +61,15 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
         for hypothesis in &climbing {
             let instances = all_candidates(scene, &hypothesis.fitted, further)?;
             ahead.push((hypothesis, tried(scene, &hypothesis.fitted, &instances)));
+        }
+        if let Some(law) = law_alone(scene, &best, &ahead)? {
+            return Ok(Found {
+                steps: best.steps,
+                fitted: best.fitted,
+                dropped: Vec::new(),
+                is_structured: true,
+                other_laws: vec![law],
+            });
         }
         let inflation = inflation(scene, &ahead)?;
         let mut next: Vec<Hypothesis> = Vec::new();
@@ -123,6 +132,27 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
     let is_structured = is_beaten || Leftover::of(scene, &best.fitted)?.is_structured();
     let other_laws = laws.iter().map(|law| law.told(scene)).collect::<Result<_>>()?;
     Ok(Found { steps: best.steps, fitted: best.fitted, dropped, is_structured, other_laws })
+}
+
+/// The law that the catalogue hasn't got and that explains nearly all, where the base model is far off and none
+/// of the candidates `ahead` does as much: effects would but imitate it, one after the other.
+fn law_alone(
+    scene: &Scene,
+    best: &Hypothesis,
+    ahead: &[(&Hypothesis, Vec<Candidate>)],
+) -> Result<Option<OtherLaw>> {
+    if !(best.steps.is_empty() && best.fitted.is_far_off()) {
+        return Ok(None);
+    }
+    let excess = best.fitted.chi2() - best.fitted.numbers();
+    let explains = |evidence: &Evidence| evidence.delta > NEARLY_ALL * excess;
+    let candidates: Vec<&Candidate> = ahead.iter().flat_map(|(_, own)| own).collect();
+    if candidates.iter().any(|candidate| explains(&candidate.evidence)) {
+        return Ok(None);
+    }
+    let laws = rivals(scene, &best.fitted, candidates.len())?;
+    let law = laws.first().filter(|law| explains(&law.evidence));
+    law.map(|law| law.told(scene)).transpose()
 }
 
 impl Hypothesis {

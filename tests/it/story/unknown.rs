@@ -1,6 +1,7 @@
 //! Laws that the catalogue doesn't hold: no confident wrong name, and the right one once it is tried.
 
 use smash::diagnose::Verdict;
+use smash::effect::Effect;
 use smash::reconstruct::RefinedOptions;
 use smash::simulate::{EffectSpec, SimulationSpec};
 
@@ -61,4 +62,39 @@ fn a_frame_that_turns() {
 fn a_rocket() {
     let thrust = effect(&example("thrust"), Some("a"), &[("thrust", &[1.0, 0.5, -0.8])]);
     tell(boxes(3), thrust, "@a");
+}
+
+/// The model without it is bent far: sizes that slopes foretell would be of that, and what the bend does to the
+/// other body would look like a force on it.
+#[test]
+fn a_strong_rocket_is_told_with_its_thrust() {
+    let thrust = [4.0, -3.0, 5.0];
+    let hidden = effect(&example("thrust"), Some("a"), &[("thrust", &thrust)]);
+    let scene = with(boxes(4), &[hidden]).scene;
+    let base = RefinedOptions::default();
+    let diagnosis = smash::diagnose(&scene, &base, &[]).unwrap();
+    let told = &diagnosis.explanation;
+    assert_eq!(diagnosis.verdict, Verdict::UnknownEffect, "{told}");
+    assert!(diagnosis.reduced_chi2.unwrap() > 10.0 && diagnosis.unexplained.is_empty(), "{told}");
+    let law = &diagnosis.other_laws[0];
+    assert!(!law.leaves_more && law.effect.body.as_deref() == Some("a"), "{told}");
+    let force = &law.effect.parameters["f"];
+    let (value, std) = (force.value.as_ref().unwrap(), force.std.as_ref().unwrap());
+    for ((value, std), truth) in value.components().iter().zip(std.components()).zip(thrust) {
+        assert!((value - truth).abs() < 4.0 * std, "{value} ± {std}, not {truth}");
+    }
+    assert!(diagnosis.advice.iter().any(|line| line.contains("--with ./other_law.toml@a")));
+
+    // Effects of the catalogue would but imitate it.
+    let improvement = smash::improve(&scene, &base, &[]).unwrap();
+    assert_eq!((improvement.ladder.len(), improvement.other_laws.len()), (1, 1));
+    // As the advice has it kept in a file.
+    let effect = law.effect.definition.clone().unwrap();
+    let kept = Effect::parse(&effect.to_toml(), "other_law.toml").unwrap();
+    let request =
+        EffectRequest { effect: kept, body: law.effect.body.clone(), fixed: BTreeMap::new() };
+    let options = RefinedOptions { effects: vec![request], ..base };
+    let improvement = smash::improve(&scene, &options, &[]).unwrap();
+    assert_eq!(improvement.verdict, Verdict::NothingMissing);
+    assert!(is_in_band(&improvement.result, LAWS), "{:?}", improvement.result.fit);
 }

@@ -21,7 +21,9 @@ export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) 
     element(
       'p',
       { class: 'hint' },
-      `The probability that nothing is missing: ${probability(diagnosis.probability_of_nothing)}. ` +
+      (diagnosis.verdict === 'unknown_effect'
+        ? 'No candidate explains the poses: the probabilities are how they compare with each other. '
+        : `The probability that nothing is missing: ${probability(diagnosis.probability_of_nothing)}. `) +
         'A p-value counts all candidates. Held out: how far the fit misses positions that it hasn’t seen, without and with the effect.',
     ),
     ...(diagnosis.unexplained ?? []).map(unexplained),
@@ -30,7 +32,11 @@ export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) 
         'div',
         {},
         element('p', { class: 'label' }, 'Next'),
-        element('ul', { 'data-testid': 'advice' }, ...diagnosis.advice.map((one) => element('li', {}, one))),
+        element(
+          'ul',
+          { class: 'lines', 'data-testid': 'advice' },
+          ...diagnosis.advice.map((one) => element('li', {}, one)),
+        ),
       ),
   ];
 }

@@ -3,7 +3,7 @@
 import { element } from '../element';
 import type { Child } from '../element';
 import { angle, length, pValue, significant } from '../numbers';
-import type { Improvement, Rung } from '../report';
+import type { Improvement, OtherLaw, Rung } from '../report';
 import { savers } from '../plots/savers';
 import { save, saveImage } from '../save';
 import { svgFile } from '../svg';
@@ -70,12 +70,20 @@ export function ladder(improvement: Improvement): Child[] {
       element(
         'p',
         {},
-        'A law alone that the catalogue hasn’t got does as well or nearly so: ' +
-          `on ${law.body ?? 'all bodies'}, one that goes with ${law.goes_with}; try ${law.law}.`,
+        `A law alone that the catalogue hasn’t got ${lawDoes(improvement, law)}: ` +
+          `on ${law.effect.body ?? 'all bodies'}, one that goes with ${law.goes_with}: ${law.law} with ` +
+          `${parametersInWords(law.effect.parameters)}.`,
       ),
     dropped.length > 0 &&
       element('p', {}, `Added on the way, and superfluous in the end: ${dropped.join(', ')}.`),
   ];
+}
+
+function lawDoes(improvement: Improvement, law: OtherLaw): string {
+  if (improvement.ladder.length > 1) return 'does as well or nearly so';
+  return law.leaves_more
+    ? 'explains nearly all that is missing, though not all'
+    : 'explains the poses to their noise';
 }
 
 function row(rung: Rung): Child[] {
