@@ -1,8 +1,9 @@
 //! `smash effects`: the catalogue, and the user's own effects.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use smash::Error;
 use smash::effect::{Effect, Parameter, Scope, catalogue, find};
 use smash::files::{print_bytes, shell_word};
 
@@ -53,9 +54,20 @@ pub fn run(arguments: &Arguments) -> smash::Result<()> {
             print(*json, &*effect, || described(&effect, name))
         }
         Task::Check { file, json } => {
-            let effect = Effect::read(file)?;
+            let effect = Effect::read(file).map_err(|error| of_the_catalogue(error, file))?;
             print(*json, &effect, || passed(&effect, &file.display().to_string()))
         }
+    }
+}
+
+/// Whoever checks an effect of the catalogue by its name is told that it is built in.
+fn of_the_catalogue(error: Error, file: &Path) -> Error {
+    let is_it = |effect: &&Effect| Path::new(&effect.name) == file && !file.exists();
+    match catalogue().iter().find(is_it) {
+        Some(Effect { name, .. }) => error.mend(format!(
+            "{name} is built in, and needs no check; this shows it: smash effects show {name}"
+        )),
+        None => error,
     }
 }
 

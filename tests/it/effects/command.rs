@@ -98,6 +98,8 @@ fn a_mistake_is_shown_where_it_is() {
     );
     let message = failure(run(&folder, &["effects", "check", "none.toml"]));
     assert!(message.contains("none.toml: can't be read"), "{message}");
+    let message = failure(run(&folder, &["effects", "check", "magnus"]));
+    assert!(message.contains("hint: magnus is built in"), "{message}");
 }
 
 #[test]
