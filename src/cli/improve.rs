@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use smash::diagnose::{Together, Verdict};
+use smash::diagnose::{MISREAD, Together, Verdict};
 use smash::files::{Output, print_bytes};
 use smash::improve::{Improvement, Rung};
+use smash::reconstruct::Flag;
 use smash::{Result, improve, improve_throws};
 
 use super::method::Method;
@@ -87,6 +88,10 @@ fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
     if let Some(otherwise) = &improvement.otherwise {
         next.insert(0, otherwise.mend.clone());
     }
+    let is_explained = improvement.law_alone().is_some_and(|law| !law.leaves_more);
+    if improvement.result.flags.contains(&Flag::PoorFit) && !is_explained {
+        next.insert(0, MISREAD.to_string());
+    }
     typed.advice(&next)
 }
 
@@ -134,6 +139,9 @@ fn write_words(
         }
         Verdict::Missing => {
             writeln!(out, "With {added} nothing more is missing that these poses could show.")?
+        }
+        Verdict::UnknownEffect if improvement.law_alone().is_some() => {
+            writeln!(out, "No effect of the catalogue explains the poses.")?
         }
         Verdict::UnknownEffect => writeln!(
             out,

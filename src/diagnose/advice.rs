@@ -7,8 +7,18 @@ use crate::effect::{Effect, catalogue};
 use crate::files::shell_word;
 use crate::reconstruct::refined::{Acting, Fitted, Instance};
 
-/// The advice that goes with a diagnosis; in its commands SCENE is the scene's file.
-pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> Vec<String> {
+/// A scene that is misread leaves more than physics does.
+pub const MISREAD: &str = "first check the order of the quaternion's components, `up`, `fps` and \
+                                  the units: what is wrong there looks like physics";
+
+/// The advice that goes with a diagnosis; in its commands SCENE is the scene's file. `leaves_more`: whether
+/// the best that there is leaves more than noise.
+pub(super) fn advice(
+    scene: &Scene,
+    fitted: &Fitted,
+    diagnosis: &Diagnosis,
+    leaves_more: bool,
+) -> Vec<String> {
     let mut advice = Vec::new();
     let known = known_effects(scene, fitted);
     match (diagnosis.verdict, diagnosis.candidates.first()) {
@@ -25,7 +35,7 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
         }
         (Verdict::UnknownEffect, _) => {
             advice.push(format!(
-                "look where the model fails: smash reconstruct SCENE{known} -o result.json, then smash \
+                "look where the model fails: smash reconstruct SCENE{known} -o result.json && smash \
                  compare SCENE result.json --svg plots"
             ));
             advice.extend(match diagnosis.other_laws.first() {
@@ -54,6 +64,9 @@ pub(super) fn advice(scene: &Scene, fitted: &Fitted, diagnosis: &Diagnosis) -> V
         // What has a name stays first.
         let place = if diagnosis.missing().is_some() { advice.len() } else { 0 };
         advice.insert(place, otherwise.mend.clone());
+    }
+    if leaves_more && fitted.is_far_off() {
+        advice.insert(0, MISREAD.to_string());
     }
     advice.retain(|line| !line.is_empty());
     advice

@@ -26,8 +26,9 @@ impl LawForm {
     }
 }
 
-/// Words, kind, law, parameters with unit and number of components, [`LawForm::beyond`].
+/// Words, name, kind, law, parameters with unit and number of components, [`LawForm::beyond`].
 type Row = (
+    &'static str,
     &'static str,
     Kind,
     &'static str,
@@ -41,12 +42,27 @@ const CONSTANT_OR_DRAG: &[&str] = &["constant_force", "linear_drag"];
 const ROWS: [Row; 13] = {
     use Kind::{Acceleration, Torque};
     [
-        ("the velocity", Acceleration, "k * v", &[("k", "1/s", 1)], None),
-        ("speed times velocity", Acceleration, "k * norm(v) * v", &[("k", "1/m", 1)], None),
-        ("spin × velocity", Acceleration, "k * cross(w, v)", &[("k", "1", 1)], None),
-        ("nothing: it is constant in the world", Acceleration, "a", &[("a", "m/s^2", 3)], None),
+        ("the velocity", "like_drag", Acceleration, "k * v", &[("k", "1/s", 1)], None),
+        (
+            "speed times velocity",
+            "like_fast_drag",
+            Acceleration,
+            "k * norm(v) * v",
+            &[("k", "1/m", 1)],
+            None,
+        ),
+        ("spin × velocity", "like_magnus", Acceleration, "k * cross(w, v)", &[("k", "1", 1)], None),
+        (
+            "nothing: it is constant in the world",
+            "constant_push",
+            Acceleration,
+            "f0",
+            &[("f0", "m/s^2", 3)],
+            None,
+        ),
         (
             "nothing: it is constant along gravity",
+            "constant_lift",
             Acceleration,
             "k * up",
             &[("k", "m/s^2", 1)],
@@ -54,20 +70,23 @@ const ROWS: [Row; 13] = {
         ),
         (
             "the position: like a spring to an anchor",
+            "like_a_spring",
             Acceleration,
-            "a - k * p",
-            &[("k", "1/s^2", 1), ("a", "m/s^2", 3)],
+            "f0 - k * p",
+            &[("k", "1/s^2", 1), ("f0", "m/s^2", 3)],
             Some(CONSTANT),
         ),
         (
             "the velocity against what moves: like drag in a wind",
+            "like_wind",
             Acceleration,
-            "a - k * v",
-            &[("k", "1/s", 1), ("a", "m/s^2", 3)],
+            "f0 - k * v",
+            &[("k", "1/s", 1), ("f0", "m/s^2", 3)],
             Some(CONSTANT_OR_DRAG),
         ),
         (
             "a fixed axis × velocity: like Coriolis' force",
+            "like_coriolis",
             Acceleration,
             "cross(W, v)",
             &[("W", "1/s", 3)],
@@ -76,6 +95,7 @@ const ROWS: [Row; 13] = {
         ),
         (
             "the body's own directions: like a thrust",
+            "like_a_thrust",
             Acceleration,
             "rotate(f)",
             &[("f", "m/s^2", 3)],
@@ -83,15 +103,24 @@ const ROWS: [Row; 13] = {
         ),
         (
             "time: it changes evenly",
+            "changing_force",
             Acceleration,
-            "a + (t - t_c) * b",
-            &[("b", "m/s^3", 3), ("a", "m/s^2", 3)],
+            "f0 + (t - t_c) * rate",
+            &[("f0", "m/s^2", 3), ("rate", "m/s^3", 3)],
             Some(CONSTANT),
         ),
-        ("the spin", Torque, "k * L", &[("k", "1/s", 1)], None),
-        ("nothing: it is constant in the world", Torque, "b", &[("b", "m^2/s^2", 3)], Some(&[])),
+        ("the spin", "like_spin_drag", Torque, "k * L", &[("k", "1/s", 1)], None),
+        (
+            "nothing: it is constant in the world",
+            "constant_torque",
+            Torque,
+            "m0",
+            &[("m0", "m^2/s^2", 3)],
+            Some(&[]),
+        ),
         (
             "the body's own directions: like a motor's",
+            "like_a_motor",
             Torque,
             "rotate(f)",
             &[("f", "m^2/s^2", 3)],
@@ -101,13 +130,14 @@ const ROWS: [Row; 13] = {
 };
 
 static FORMS: LazyLock<Vec<LawForm>> = LazyLock::new(|| {
-    let form = |(goes_with, kind, law, parameters, beyond): Row| {
+    let form = |(goes_with, name, kind, law, parameters, beyond): Row| {
         let own = |(name, unit, count): &(&str, &str, usize)| {
             (name.to_string(), unit.to_string(), *count)
         };
         let parameters: Vec<Parameter> = parameters.iter().map(own).collect();
         let title = format!("A law that goes with {goes_with}");
-        let effect = Effect { title, ..law_of(&[(hook(kind), law)], &parameters) };
+        let law_of_it = law_of(&[(hook(kind), law)], &parameters);
+        let effect = Effect { name: name.to_string(), title, ..law_of_it };
         LawForm { goes_with, kind, law, beyond, effect }
     };
     ROWS.into_iter().map(form).collect()

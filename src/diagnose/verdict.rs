@@ -109,12 +109,12 @@ pub(super) fn diagnosis(
         .filter(is_told)
         .map(|(_, index)| report(scene, &result, &candidates, index, (odds[index], inflation)))
         .collect::<Result<Vec<_>>>()?;
-    let otherwise = match named {
-        Some(first) => otherwise(&first.fitted, stays_structured),
-        // Poses that a law explains to their noise need no other explanation.
-        None if law.is_some() && !other_laws[0].leaves_more => None,
-        None => otherwise(fitted, verdict == Verdict::UnknownEffect),
+    let leaves_more = match (named, law) {
+        (None, Some(_)) => other_laws[0].leaves_more,
+        (None, None) => verdict == Verdict::UnknownEffect,
+        (Some(_), _) => stays_structured,
     };
+    let otherwise = otherwise(best, leaves_more);
     let mut diagnosis = Diagnosis {
         schema: DIAGNOSIS_SCHEMA.to_string(),
         scene: scene.name().to_string(),
@@ -134,7 +134,7 @@ pub(super) fn diagnosis(
     };
     let pair = second.as_ref().map(|(_, labels)| labels.as_str());
     diagnosis.explanation = explanation(&diagnosis, pair);
-    diagnosis.advice = advice(scene, fitted, &diagnosis);
+    diagnosis.advice = advice(scene, fitted, &diagnosis, leaves_more);
     let has_answer = |instance: &&Instance| {
         candidates
             .iter()

@@ -149,6 +149,11 @@ fn with_values(effect: &str, parameters: Option<&BTreeMap<String, ParameterEstim
 }
 
 impl Improvement {
+    /// The law that the catalogue hasn't got and that explains alone what no effect does.
+    pub fn law_alone(&self) -> Option<&OtherLaw> {
+        self.other_laws.first().filter(|_| self.ladder.len() == 1)
+    }
+
     /// What to film or measure to tell the rungs' effects from what else may be in their place.
     pub fn telling_apart(&self) -> Vec<String> {
         let alike = self.ladder.iter().filter(|rung| !rung.indistinguishable_from.is_empty());

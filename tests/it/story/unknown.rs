@@ -83,18 +83,33 @@ fn a_strong_rocket_is_told_with_its_thrust() {
     for ((value, std), truth) in value.components().iter().zip(std.components()).zip(thrust) {
         assert!((value - truth).abs() < 4.0 * std, "{value} ± {std}, not {truth}");
     }
-    assert!(diagnosis.advice.iter().any(|line| line.contains("--with ./other_law.toml@a")));
+    assert!(diagnosis.advice.iter().any(|line| line.contains("--with ./like_a_thrust.toml@a")));
 
     // Effects of the catalogue would but imitate it.
     let improvement = smash::improve(&scene, &base, &[]).unwrap();
     assert_eq!((improvement.ladder.len(), improvement.other_laws.len()), (1, 1));
     // As the advice has it kept in a file.
     let effect = law.effect.definition.clone().unwrap();
-    let kept = Effect::parse(&effect.to_toml(), "other_law.toml").unwrap();
+    let kept = Effect::parse(&effect.to_toml(), "like_a_thrust.toml").unwrap();
     let request =
         EffectRequest { effect: kept, body: law.effect.body.clone(), fixed: BTreeMap::new() };
     let options = RefinedOptions { effects: vec![request], ..base };
     let improvement = smash::improve(&scene, &options, &[]).unwrap();
     assert_eq!(improvement.verdict, Verdict::NothingMissing);
     assert!(is_in_band(&improvement.result, LAWS), "{:?}", improvement.result.fit);
+}
+
+/// Nothing is missing from the physics: the quaternions are in another order.
+#[test]
+fn a_scene_that_is_misread_is_told_to_be_checked() {
+    let file = simulate(&boxes(5)).unwrap().scene_file.to_json();
+    let mut scene: Value = serde_json::from_str(&file).unwrap();
+    for body in scene["bodies"].as_array_mut().unwrap() {
+        for pose in body["observations"].as_array_mut().unwrap() {
+            pose["orientation"].as_array_mut().unwrap().rotate_left(1);
+        }
+    }
+    let scene = Scene::parse(&scene.to_string(), "misread").unwrap();
+    let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
+    assert_eq!(diagnosis.advice[0], smash::diagnose::MISREAD, "{:?}", diagnosis.advice);
 }

@@ -17,12 +17,14 @@ const VERDICTS = {
   unknown_effect: 'Something is left that no effect of the catalogue explains.',
 };
 
+const NO_EFFECT = 'No effect of the catalogue explains the poses.';
+
 export function ladder(improvement: Improvement): Child[] {
   const plot = ladderPlot(improvement.ladder);
   const dropped = improvement.dropped;
   const law = improvement.other_laws?.[0];
   return [
-    element('p', {}, VERDICTS[improvement.verdict]),
+    element('p', {}, isOfALaw(improvement) ? NO_EFFECT : VERDICTS[improvement.verdict]),
     improvement.otherwise && element('p', { 'data-testid': 'otherwise' }, improvement.otherwise.words),
     element(
       'figure',
@@ -79,8 +81,13 @@ export function ladder(improvement: Improvement): Child[] {
   ];
 }
 
+/** Whether a law that the catalogue hasn't got explains alone what no effect does. */
+function isOfALaw(improvement: Improvement): boolean {
+  return improvement.ladder.length === 1 && (improvement.other_laws ?? []).length > 0;
+}
+
 function lawDoes(improvement: Improvement, law: OtherLaw): string {
-  if (improvement.ladder.length > 1) return 'does as well or nearly so';
+  if (!isOfALaw(improvement)) return 'does as well or nearly so';
   return law.leaves_more
     ? 'explains nearly all that is missing, though not all'
     : 'explains the poses to their noise';
