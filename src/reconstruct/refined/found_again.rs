@@ -10,7 +10,7 @@ use super::freed::{free_jump, leaving, same_jump};
 use super::optimum::{Optimum, optima_from};
 use super::parabolas::Parabolas;
 use super::start::{Leaving, freed_candidates};
-use super::starts::Start;
+use super::starts::{Start, away, extended, is_flat};
 use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns, launch};
 use crate::reconstruct::solver_error;
 use crate::{Result, Scene};
@@ -31,6 +31,12 @@ pub(super) fn found_again(
     let mut free = refined.clone();
     let jumps = possible(scene, &free_jump(scene)?);
     let jumps: Vec<Acting> = jumps.iter().map(|jump| jump.act_on(&mut free)).collect();
+    let null = extended(&nested.best().solution.unknowns, &acting.instance.null());
+    // A spring's anchor is nothing to a spring without stiffness: it starts with some, too.
+    let sizes = match is_flat(refined, acting, &null, nested.best().gap)? {
+        true => vec![0.0, 1.0],
+        false => vec![0.0],
+    };
     let parabolas = Parabolas::new(scene);
     let mut starts: Vec<Start> = Vec::new();
     for segment in parabolas.best_segments(MOST_SEGMENTS) {
@@ -43,8 +49,11 @@ pub(super) fn found_again(
                 start.parameters.extend(jump.instance.null());
             }
             unbend(&mut start, &wanted);
-            jump_to(&free, &jumps, &mut start, &wanted)?;
-            starts.push((start, candidate.gap));
+            for size in &sizes {
+                let mut start = away(refined, acting, &start, *size);
+                jump_to(&free, &jumps, &mut start, &wanted)?;
+                starts.push((start, candidate.gap));
+            }
         }
     }
     // Positions are off by metres at first, and would drag the spins after them.

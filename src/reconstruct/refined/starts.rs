@@ -176,7 +176,7 @@ fn frame_s(scene: &Scene, times: &[f64]) -> f64 {
     scene.fps().map_or(shortest, |fps| 1.0 / fps)
 }
 
-fn extended(unknowns: &RefinedUnknowns, null: &[f64]) -> RefinedUnknowns {
+pub(super) fn extended(unknowns: &RefinedUnknowns, null: &[f64]) -> RefinedUnknowns {
     let mut extended = unknowns.clone();
     extended.parameters.extend(null);
     extended
@@ -211,7 +211,7 @@ fn beside_the_null(
 }
 
 /// Whether nothing depends on one of the free parameters.
-fn is_flat(
+pub(super) fn is_flat(
     refined: &RefinedScene,
     acting: &Acting,
     unknowns: &RefinedUnknowns,

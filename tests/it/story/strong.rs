@@ -23,6 +23,19 @@ fn a_model_that_is_far_off_hides_no_strong_effect() {
     }
 }
 
+/// Where a spring has no stiffness its anchor is nothing to it: from the null alone no way leads there.
+#[test]
+fn a_strong_spring_of_ones_own_is_found() {
+    let file = format!("{}/examples/effects/spring.toml", env!("CARGO_MANIFEST_DIR"));
+    let hidden = effect(&file, Some("b"), &[("stiffness", &[5.0]), ("anchor", &[0.5, 2.0, 0.0])]);
+    for seed in [62, 63] {
+        let scene = with(boxes(seed), std::slice::from_ref(&hidden)).scene;
+        assert!(fit(&scene, &[]).fit.reduced_chi2.unwrap() > 10.0);
+        let result = fit(&scene, &[format!("{file}@b")]);
+        assert!(is_in_band(&result, SCENES), "{seed}: {:?}", result.fit);
+    }
+}
+
 #[test]
 fn half_of_gravity_is_diagnosed() {
     let scene = with(boxes(64), &[effect("gravity_scale", None, &[("s", &[0.5])])]).scene;
