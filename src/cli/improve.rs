@@ -78,12 +78,13 @@ fn commands(improvement: &Improvement, typed: &Typed) -> Vec<String> {
 fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
     let mut next: Vec<String> = improvement.telling_apart();
     let law = improvement.other_laws.first();
-    next.extend(law.map_or(Vec::new(), |law| law.trying("")));
+    next.extend(law.map_or(Vec::new(), |law| law.trying(&typed.given())));
     if improvement.verdict == Verdict::UnknownEffect && law.is_none() {
         let with = improvement.ladder.last().map_or(&[][..], |rung| &rung.with);
         let with: String = with.iter().map(|label| format!(" --with {label}")).collect();
         let scenes = if typed.has_several_scenes() { "SCENE SCENE …" } else { "SCENE" };
-        next.push(format!("see what is left: smash diagnose {scenes}{with}"));
+        let given = typed.given();
+        next.push(format!("see what is left: smash diagnose {scenes}{given}{with}"));
     }
     if let Some(otherwise) = &improvement.otherwise {
         next.insert(0, otherwise.mend.clone());

@@ -50,6 +50,15 @@ impl Typed {
             .collect()
     }
 
+    /// What a line of advice takes for the effects that were typed.
+    pub fn given(&self) -> String {
+        let label = |request: &EffectRequest| {
+            let body = request.body.as_ref().map_or(String::new(), |body| format!("@{body}"));
+            format!(" --with {}{body}", request.effect.name)
+        };
+        self.options.effects.iter().map(label).collect()
+    }
+
     /// What writes the laws that no file holds and that `commands` need.
     pub fn writing(&self, commands: &[String]) -> Vec<String> {
         self.laws.writing(commands)
@@ -135,6 +144,22 @@ fn scene_word(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Advice that adds a law keeps what was typed already, with its file and values.
+    #[test]
+    fn advice_keeps_the_effects_that_were_given() {
+        let tether = "examples/effects/tether.toml";
+        let given = EffectRequest::parse(&format!("{tether}@ball:length=0.5")).unwrap();
+        let options = RefinedOptions { effects: vec![given], ..RefinedOptions::default() };
+        let typed = Typed::new(&[PathBuf::from("a.json")], &options, &[]);
+        let line = format!("add it: smash improve SCENE{} --with ./law.toml@ball", typed.given());
+        assert_eq!(
+            typed.advice(&[line]),
+            [format!(
+                "add it: smash improve a.json --with {tether}@ball:length=0.5 --with ./law.toml@ball"
+            )]
+        );
+    }
 
     /// Of several throws a label carries the values that they share, those that were given among them.
     #[test]

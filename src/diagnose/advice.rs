@@ -7,9 +7,9 @@ use crate::effect::{Effect, catalogue};
 use crate::files::shell_word;
 use crate::reconstruct::refined::{Acting, Fitted, Instance};
 
-/// A scene that is misread leaves more than physics does.
+/// The first advice where even the best leaves far more than noise: a scene that is misread does.
 pub const MISREAD: &str = "first check the order of the quaternion's components, `up`, `fps` and \
-                                  the units: what is wrong there looks like physics";
+    the units: what is wrong there looks like physics";
 
 /// The advice that goes with a diagnosis; in its commands SCENE is the scene's file. `leaves_more`: whether
 /// the best that there is leaves more than noise.

@@ -34,6 +34,7 @@ mod unexplained;
 mod verdict;
 mod words;
 
+pub use advice::MISREAD;
 pub use diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
 };
@@ -46,7 +47,6 @@ pub use throws::diagnose_throws;
 pub use together::{ThrowValue, Together};
 pub use unexplained::{Form, Kind, Unexplained};
 
-pub use advice::MISREAD;
 pub(crate) use advice::telling_apart;
 pub(crate) use best_of_throws::{alike, put_best_first, with_effect, with_own};
 pub(crate) use candidates::{Candidate, all_candidates, candidate, of_a_body};
