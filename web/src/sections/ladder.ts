@@ -17,14 +17,19 @@ const VERDICTS = {
   unknown_effect: 'Something is left that no effect of the catalogue explains.',
 };
 
-const NO_EFFECT = 'No effect of the catalogue explains the poses.';
+/** The verdict in a sentence. */
+export function verdictOf(improvement: Improvement): string {
+  return isOfALaw(improvement)
+    ? 'No effect of the catalogue explains the poses.'
+    : VERDICTS[improvement.verdict];
+}
 
 export function ladder(improvement: Improvement): Child[] {
   const plot = ladderPlot(improvement.ladder);
   const dropped = improvement.dropped;
   const law = improvement.other_laws?.[0];
   return [
-    element('p', {}, isOfALaw(improvement) ? NO_EFFECT : VERDICTS[improvement.verdict]),
+    element('p', {}, verdictOf(improvement)),
     improvement.otherwise && element('p', { 'data-testid': 'otherwise' }, improvement.otherwise.words),
     element(
       'figure',

@@ -6,6 +6,7 @@ import { angle, length, significant, withDeviation, withUnit } from '../numbers'
 import type { Estimate, Model, Report } from '../report';
 import { flagInWords, label } from '../words';
 import type { Doubt } from '../words';
+import { verdictOf } from './ladder';
 
 export function summary(report: Report, model: Model | null): HTMLElement[] {
   if (model === null) return [element('p', {}, 'This report holds no result.')];
@@ -41,7 +42,7 @@ function ofLadder(improvement: Report['improvement'], model: Model): string | nu
   if (!last || !improvement || !isRefined || !hasEffects(model, last.with)) return null;
   const verdict =
     improvement.verdict === 'unknown_effect'
-      ? 'Something is left that no effect of the catalogue explains.'
+      ? verdictOf(improvement)
       : 'Nothing more is missing that these poses could show.';
   return [verdict, improvement.otherwise?.words].filter(Boolean).join(' ');
 }
