@@ -75,12 +75,25 @@ fn in_words(diagnosis: &Diagnosis) -> String {
 }
 
 fn write_words(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
-    writeln!(out, "{}\n", diagnosis.explanation)?;
+    writeln!(out, "{}", diagnosis.explanation)?;
+    if !diagnosis.candidates.is_empty() {
+        write_candidates(out, diagnosis)?;
+    }
+    if !diagnosis.advice.is_empty() {
+        writeln!(out, "\nNext")?;
+    }
+    for line in &diagnosis.advice {
+        writeln!(out, "  {line}")?;
+    }
+    Ok(())
+}
+
+fn write_candidates(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
     let mut rows = vec![
         ["candidate", "probability", "p-value", "Δχ²", "held out, mm"].map(String::from).to_vec(),
     ];
     rows.extend(diagnosis.candidates.iter().map(row));
-    writeln!(out, "{}", aligned(&rows))?;
+    writeln!(out, "\n{}", aligned(&rows))?;
     match diagnosis.verdict {
         Verdict::UnknownEffect => writeln!(
             out,
@@ -96,14 +109,7 @@ fn write_words(out: &mut String, diagnosis: &Diagnosis) -> std::fmt::Result {
         out,
         "A p-value counts all candidates. Held out: how far the fit misses positions that it hasn't \
          seen,\nwithout and with the effect."
-    )?;
-    if !diagnosis.advice.is_empty() {
-        writeln!(out, "\nNext")?;
-    }
-    for line in &diagnosis.advice {
-        writeln!(out, "  {line}")?;
-    }
-    Ok(())
+    )
 }
 
 fn row(candidate: &CandidateReport) -> Vec<String> {

@@ -79,7 +79,8 @@ fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
     let mut next: Vec<String> = improvement.telling_apart();
     let law = improvement.other_laws.first();
     next.extend(law.map_or(Vec::new(), |law| law.trying(&typed.given())));
-    if improvement.verdict == Verdict::UnknownEffect && law.is_none() {
+    let is_open = improvement.verdict == Verdict::UnknownEffect && !improvement.is_misread();
+    if is_open && law.is_none() {
         let with = improvement.ladder.last().map_or(&[][..], |rung| &rung.with);
         let with: String = with.iter().map(|label| format!(" --with {label}")).collect();
         let scenes = if typed.has_several_scenes() { "SCENE SCENE …" } else { "SCENE" };
@@ -90,7 +91,7 @@ fn next(improvement: &Improvement, typed: &Typed) -> Vec<String> {
         next.insert(0, otherwise.mend.clone());
     }
     let is_explained = improvement.law_alone().is_some_and(|law| !law.leaves_more);
-    if improvement.result.flags.contains(&Flag::PoorFit) && !is_explained {
+    if is_open && improvement.result.flags.contains(&Flag::PoorFit) && !is_explained {
         next.insert(0, MISREAD.to_string());
     }
     typed.advice(&next)
@@ -115,15 +116,6 @@ fn write_words(
     if !rungs.is_empty() {
         writeln!(out, "{}\n", rungs.join("\n"))?;
     }
-    if let Some(law) = improvement.other_laws.first() {
-        let does = match improvement.ladder.len() {
-            1 if law.leaves_more => "explains nearly all that is missing, though not all",
-            1 => "explains the poses to their noise",
-            2 => "does as well",
-            _ => "does as well or nearly so, and may be what these effects imitate together",
-        };
-        writeln!(out, "A law alone that the catalogue hasn't got {does}: {}.\n", law.in_words())?;
-    }
     if !improvement.dropped.is_empty() {
         writeln!(
             out,
@@ -131,27 +123,7 @@ fn write_words(
             improvement.dropped.join(", ")
         )?;
     }
-    // By name: values that several throws share stand, with all digits, in the commands.
-    let added = improvement.ladder.iter().filter_map(|rung| rung.added.as_deref());
-    let added = each_once(added).join(" and ");
-    match improvement.verdict {
-        Verdict::NothingMissing => {
-            writeln!(out, "Nothing is missing that these poses could show.")?
-        }
-        Verdict::Missing => {
-            writeln!(out, "With {added} nothing more is missing that these poses could show.")?
-        }
-        Verdict::UnknownEffect if improvement.law_alone().is_some() => {
-            writeln!(out, "No effect of the catalogue explains the poses.")?
-        }
-        Verdict::UnknownEffect => writeln!(
-            out,
-            "Something is left that no effect explains; --try takes a law of your own."
-        )?,
-    }
-    if let Some(otherwise) = &improvement.otherwise {
-        writeln!(out, "{}", otherwise.words)?;
-    }
+    writeln!(out, "{}", improvement.explanation)?;
     for one in &improvement.together {
         writeln!(out, "{}", one.in_words())?;
     }
@@ -169,22 +141,6 @@ fn write_words(
         writeln!(out, "  {command}")?;
     }
     Ok(())
-}
-
-/// Each label once, with how often it comes.
-fn each_once<'a>(labels: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut counts: Vec<(&str, usize)> = Vec::new();
-    for label in labels {
-        match counts.iter_mut().find(|(known, _)| *known == label) {
-            Some((_, count)) => *count += 1,
-            None => counts.push((label, 1)),
-        }
-    }
-    let in_words = |(label, count): (&str, usize)| match count {
-        1 => label.to_string(),
-        count => format!("{count} × {label}"),
-    };
-    counts.into_iter().map(in_words).collect()
 }
 
 /// A header, and a row for each rung.

@@ -9,8 +9,9 @@ use super::otherwise::Otherwise;
 use super::rivals::OtherLaw;
 use super::together::Together;
 use super::unexplained::Unexplained;
+use crate::Scene;
 use crate::compare::ChannelTest;
-use crate::reconstruct::{ActiveEffect, ParameterEstimate};
+use crate::reconstruct::{ActiveEffect, ParameterEstimate, Reconstruction};
 
 /// The value of a diagnosis file's field `schema`.
 pub const DIAGNOSIS_SCHEMA: &str = "smash.diagnosis/1";
@@ -51,8 +52,8 @@ pub struct Diagnosis {
     /// Of several throws: their restitution and mass ratio put together, with the effect that is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
-    /// What else than missing physics may leave what is left: errors of the poses that aren't as the model
-    /// takes them to be.
+    /// What else than missing physics may leave what is left: poses that aren't as the model takes them to
+    /// be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub otherwise: Option<Otherwise>,
     /// The answer in plain words.
@@ -161,6 +162,31 @@ impl CandidateReport {
 }
 
 impl Diagnosis {
+    /// Of `scene`, whose model gives `result` and `channels`, before anything was tried.
+    pub(super) fn new(
+        scene: &Scene,
+        result: &Reconstruction,
+        channels: Vec<ChannelTest>,
+    ) -> Diagnosis {
+        Diagnosis {
+            schema: DIAGNOSIS_SCHEMA.to_string(),
+            scene: scene.name().to_string(),
+            verdict: Verdict::UnknownEffect,
+            model: result.effects.clone(),
+            channels,
+            reduced_chi2: result.fit.reduced_chi2,
+            candidates: Vec::new(),
+            probability_of_nothing: 0.0,
+            stays_structured: false,
+            unexplained: Vec::new(),
+            other_laws: Vec::new(),
+            together: Vec::new(),
+            otherwise: None,
+            explanation: String::new(),
+            advice: Vec::new(),
+        }
+    }
+
     /// What is missing, if that has a name.
     pub fn missing(&self) -> Option<&CandidateReport> {
         self.candidates.first().filter(|_| self.verdict == Verdict::Missing)

@@ -16,6 +16,7 @@ mod forms;
 mod goodness;
 mod held_out;
 mod leftover;
+mod misread;
 mod misses;
 mod near_collision;
 mod other_noise;
@@ -38,6 +39,7 @@ pub use advice::MISREAD;
 pub use diagnosis::{
     Agreement, CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, ThrowEstimate, Verdict,
 };
+pub use misread::{Misread, Orientations};
 pub use near_collision::NearCollision;
 pub use other_noise::OtherNoise;
 pub use otherwise::{Cause, Otherwise};
@@ -59,7 +61,7 @@ pub(crate) use leftover::Leftover;
 pub(crate) use otherwise::Explained;
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
-pub(crate) use rivals::rivals;
+pub(crate) use rivals::{Rival, rivals};
 pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 pub(crate) use together::together;
 pub(crate) use words::{in_words, listed};
@@ -94,7 +96,8 @@ pub fn diagnose(
 ) -> Result<Diagnosis> {
     let explained = |scene: &Scene| {
         let mut best = None;
-        let diagnosis = diagnosed(scene, options, further, |fitted, _| {
+        let fitted = refined::fit(scene, options)?;
+        let diagnosis = diagnosed(scene, &fitted, further, |fitted, _| {
             best = Some(fitted.clone());
             None
         })?;
@@ -104,26 +107,52 @@ pub fn diagnose(
             leaves_more: diagnosis.verdict == Verdict::UnknownEffect || diagnosis.stays_structured,
         })
     };
-    diagnosed(scene, options, further, |fitted, is_structured| {
-        Otherwise::of(scene, fitted, is_structured, explained)
-    })
+    let fitted = refined::fit(scene, options)?;
+    match Misread::told(scene, &fitted, explained) {
+        Some(misread) => verdict::of_misread(scene, &fitted, misread),
+        None => diagnosed(scene, &fitted, further, |fitted, is_structured| {
+            Otherwise::of(scene, fitted, is_structured, explained)
+        }),
+    }
 }
 
 /// `otherwise`: what else may leave what the best model leaves, more than noise if the second is so.
 fn diagnosed(
     scene: &Scene,
-    options: &RefinedOptions,
+    fitted: &Fitted,
     further: &[EffectRequest],
     otherwise: impl FnOnce(&Fitted, bool) -> Option<Otherwise>,
 ) -> Result<Diagnosis> {
-    let fitted = refined::fit(scene, options)?;
-    let instances = all_candidates(scene, &fitted, further)?;
-    let candidates = tried(scene, &fitted, &instances);
-    verdict::diagnosis(scene, &fitted, instances, candidates, otherwise)
+    let instances = all_candidates(scene, fitted, further)?;
+    let tried = tried(scene, fitted, &instances);
+    verdict::diagnosis(scene, fitted, instances, tried, otherwise)
 }
 
-/// All candidates that can be fitted, the best first by Schwarz's criterion.
-pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Vec<Candidate> {
+/// What was tried on top of a model.
+pub(crate) struct Tried {
+    /// All candidates that can be fitted, the best first by Schwarz's criterion.
+    pub(crate) candidates: Vec<Candidate>,
+    /// Laws that the catalogue hasn't got, as [`rivals()`] finds them; `None` where nobody asked yet.
+    laws: Option<Vec<Rival>>,
+}
+
+impl Tried {
+    /// As [`rivals()`], but found once.
+    pub(crate) fn laws(
+        &mut self,
+        scene: &Scene,
+        fitted: &Fitted,
+        tried: usize,
+    ) -> Result<Vec<Rival>> {
+        match self.laws.take() {
+            Some(laws) => Ok(laws),
+            None => rivals(scene, fitted, tried),
+        }
+    }
+}
+
+/// Tries all `instances` on top of `fitted`.
+pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Tried {
     let before = HeldOut::of(fitted, fitted.collision_time_s());
     // A score test that fails leaves all to be refitted.
     let promising =
@@ -144,20 +173,23 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> V
         let others = instances.iter().filter(|instance| !promising.contains(instance));
         candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
     }
+    let mut laws = None;
     // It takes most of a diagnosis' time, and is needless beside what leaves nothing.
     if fitted.is_lost() && candidates.iter().all(is_structured) {
-        let law = rivals::explaining(scene, fitted, instances.len());
+        let found = rivals(scene, fitted, instances.len()).unwrap_or_default();
+        let law = found.first().filter(|law| law.leaves_nothing(scene));
         let again = |candidate: Candidate| {
-            if law.as_ref().is_some_and(|law| !law.holds(&candidate, scene)) {
+            if law.is_some_and(|law| !law.holds(&candidate, scene)) {
                 return candidate;
             }
             let with = fitted.again_quickly(scene, candidate.fitted.clone()).ok();
             with.and_then(judged).unwrap_or(candidate)
         };
         candidates = candidates.into_par_iter().map(again).collect();
+        laws = Some(found);
     }
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
-    candidates
+    Tried { candidates, laws }
 }
 
 /// The reconstruction of a fitted model, with covariance intervals.

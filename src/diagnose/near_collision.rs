@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::dependence::{CURVE, beside_a_curve, flights};
-use super::otherwise::{Cause, Explained, Otherwise, all_that_is_missing};
+use super::otherwise::{Cause, Explained, Otherwise};
 use crate::reconstruct::refined::Fitted;
 use crate::words::{counted, rounded};
 use crate::{Result, Scene};
@@ -75,18 +75,11 @@ impl NearCollision {
         if fitted.is_far_off() && fitted.of(&rest)?.is_far_off() {
             return Ok(None);
         }
-        let Explained { missing, leaves_more, .. } = explained(&rest)?;
-        if leaves_more && fitted.is_far_off() {
+        let explained = explained(&rest)?;
+        if explained.leaves_more && fitted.is_far_off() {
             return Ok(None);
         }
-        let shows = match (missing.as_slice(), leaves_more) {
-            (labels, false) => all_that_is_missing(labels),
-            ([], true) => "something is left still that no effect explains".to_string(),
-            ([one], true) => format!("{one} is missing, and something is left still"),
-            (all, true) => {
-                format!("{} are missing, and something is left still", all.join(" and "))
-            }
-        };
+        let shows = explained.shows();
         let (from, to) = (rounded(self.from_time), rounded(self.to_time));
         let poses = counted(self.poses, "pose");
         Ok(Some(Otherwise {
@@ -98,8 +91,11 @@ impl NearCollision {
                 "take the {poses} from {from} to {to} s out of the scene, and ask again: to the model a \
                  contact is over in a moment"
             ),
-            missing,
-            cause: Cause::NearCollision(NearCollision { leaves_more, ..self }),
+            missing: explained.missing,
+            cause: Cause::NearCollision(NearCollision {
+                leaves_more: explained.leaves_more,
+                ..self
+            }),
         }))
     }
 }

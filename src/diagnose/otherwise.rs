@@ -1,16 +1,18 @@
-//! What else than missing physics may leave what is left over: the poses' errors themselves.
+//! What else than missing physics may leave what is left over: the poses' errors themselves, or how they
+//! are written.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::dependence::waves_beside_curves;
+use super::misread::Misread;
 use super::near_collision::NearCollision;
 use super::other_noise::OtherNoise;
 use super::shared_errors::{SharedErrors, WAVES};
 use crate::reconstruct::refined::Fitted;
 use crate::{Result, Scene};
 
-/// Errors of the poses that aren't as the model takes them to be, and what is missing beside them.
+/// Poses that aren't as the model takes them to be, and what is missing beside that.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Otherwise {
     /// What it may be.
@@ -23,16 +25,18 @@ pub struct Otherwise {
     pub mend: String,
 }
 
-/// How the poses' errors may be.
+/// How the poses may be.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Cause {
-    /// Of another size than stated.
+    /// With errors of another size than stated.
     OtherNoise(OtherNoise),
-    /// Shared by neighbours.
+    /// With errors that neighbours share.
     SharedErrors(SharedErrors),
-    /// Large where the bodies touch.
+    /// With errors that are large where the bodies touch.
     NearCollision(NearCollision),
+    /// Written otherwise than they are read.
+    Misread(Misread),
 }
 
 /// A scene as its best model explains it.
@@ -46,6 +50,11 @@ pub(crate) struct Explained {
 }
 
 impl Otherwise {
+    /// Whether the scene seems to be written otherwise than it is read.
+    pub fn is_misread(&self) -> bool {
+        matches!(self.cause, Cause::Misread(_))
+    }
+
     /// Of `scene`, whose best model leaves `fitted`, and that as more than noise if `is_structured`.
     /// `explained`: another scene of the same collision. What can't be asked says nothing: the first
     /// answer stands.
@@ -65,6 +74,20 @@ impl Otherwise {
                 SharedErrors::told(scene, fitted, explained).ok().flatten()
             }
             false => None,
+        }
+    }
+}
+
+impl Explained {
+    /// In words.
+    pub(super) fn shows(&self) -> String {
+        match (self.missing.as_slice(), self.leaves_more) {
+            (labels, false) => all_that_is_missing(labels),
+            ([], true) => "something is left still that no effect explains".to_string(),
+            ([one], true) => format!("{one} is missing, and something is left still"),
+            (all, true) => {
+                format!("{} are missing, and something is left still", all.join(" and "))
+            }
         }
     }
 }

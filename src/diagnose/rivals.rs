@@ -99,6 +99,11 @@ impl Rival {
         Leftover::of(scene, &self.fitted)
     }
 
+    /// Whether that is no more than noise.
+    pub(super) fn leaves_nothing(&self, scene: &Scene) -> bool {
+        self.rest(scene).is_ok_and(|rest| !rest.is_structured())
+    }
+
     /// As it stands in a file.
     pub(crate) fn told(&self, scene: &Scene) -> Result<OtherLaw> {
         let effect = reported(scene, &self.fitted)?.effects.pop();
@@ -158,13 +163,6 @@ const PUSH: [(&str, &str); 2] = [
 fn push() -> Effect {
     let own = [("from", "s", 1), ("rate", "1/s", 1), ("a", "m/s^2", 3), ("b", "m^2/s^2", 3)];
     law_of(&PUSH, &own.map(|(name, unit, count)| (name.to_string(), unit.to_string(), count)))
-}
-
-/// The best of [`rivals`] if it leaves nothing but noise.
-pub(super) fn explaining(scene: &Scene, fitted: &Fitted, tried: usize) -> Option<Rival> {
-    let best = rivals(scene, fitted, tried).ok()?.into_iter().next()?;
-    let leaves_more = best.rest(scene).ok()?.is_structured();
-    (!leaves_more).then_some(best)
 }
 
 /// The laws that explain `scene` significantly better than its model, the best first. `tried`: how

@@ -2,15 +2,15 @@
 
 use super::advice::{advice, unfitted};
 use super::candidates::is_own;
-use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Shift, Verdict};
+use super::diagnosis::{CandidateReport, Diagnosis, Shift, Verdict};
 use super::leftover::Leftover;
 use super::otherwise::Otherwise;
 use super::ranking::{TELLS_APART, first, look_alikes, probabilities, rank};
-use super::rivals::{OtherLaw, Rival, lasting_push, rivals};
+use super::rivals::{OtherLaw, Rival, lasting_push};
 use super::swing::swings;
-use super::unexplained::{clearest, unexplained};
+use super::unexplained::{Unexplained, clearest, unexplained};
 use super::words::explanation;
-use super::{Candidate, Goodness, reported, tried};
+use super::{Candidate, Goodness, Tried, reported, tried};
 use crate::compare::channels;
 use crate::reconstruct::refined::{Fitted, Instance};
 use crate::reconstruct::{Estimate, Reconstruction};
@@ -22,6 +22,22 @@ const FEWEST_TOLD: usize = 5;
 const FIRSTS: usize = 3;
 /// An effect that leaves more than this share of what the model misses doesn't explain it.
 pub(super) const EXPLAINS: f64 = 0.5;
+/// Where even that is ten times the noise: of a model bent so far any bend explains half.
+const FAR_OFF_LEAVES: f64 = 0.05;
+
+/// The answer for `scene`, which seems to be misread: what a candidate would do there says nothing.
+pub(super) fn of_misread(scene: &Scene, fitted: &Fitted, misread: Otherwise) -> Result<Diagnosis> {
+    let result = reported(scene, fitted)?;
+    let channels = channels(scene, &result)?;
+    let explanation =
+        format!("The poses are missed by far more than their noise. {}", misread.words);
+    Ok(Diagnosis {
+        explanation,
+        advice: vec![misread.mend.clone()],
+        otherwise: Some(misread),
+        ..Diagnosis::new(scene, &result, channels)
+    })
+}
 
 /// The answer for `scene`, fitted, with its candidates in order. `otherwise`: what else may leave what a
 /// model leaves.
@@ -29,23 +45,24 @@ pub(super) fn diagnosis(
     scene: &Scene,
     fitted: &Fitted,
     instances: Vec<Instance>,
-    mut candidates: Vec<Candidate>,
+    mut tried: Tried,
     otherwise: impl FnOnce(&Fitted, bool) -> Option<Otherwise>,
 ) -> Result<Diagnosis> {
     let result = reported(scene, fitted)?;
     let channels = channels(scene, &result)?;
     let before = Goodness::by(fitted, &channels);
-    let (inflation, rest) = rank(scene, &mut candidates)?;
+    let mut laws = Vec::new();
+    let (inflation, rest) = rank(scene, &mut tried.candidates)?;
+    if first(&tried.candidates).is_some() {
+        laws = tried.laws(scene, fitted, instances.len())?;
+    }
+    let candidates = tried.candidates;
     let first = first(&candidates);
     let stays_structured = rest.as_ref().is_some_and(Leftover::is_structured);
-    let mut laws = match first {
-        Some(_) => rivals(scene, fitted, instances.len())?,
-        None => Vec::new(),
-    };
     laws.retain(|law| !instances.iter().any(|tried| law.is_the_law_of(tried)));
     // Far off, a law that leaves nothing needs no pair beside it: to look for one takes long.
-    let law_explains = fitted.is_far_off()
-        && laws.first().is_some_and(|law| law.rest(scene).is_ok_and(|rest| !rest.is_structured()));
+    let law_explains =
+        fitted.is_far_off() && laws.first().is_some_and(|law| law.leaves_nothing(scene));
     // Where the noise isn't known, what is left says little of a second.
     let second = match stays_structured && fitted.has_stated_noise() && !law_explains {
         true => second(scene, &candidates, &instances),
@@ -77,72 +94,87 @@ pub(super) fn diagnosis(
     let lasting = named.and_then(|first| lasting_push(fitted, first, instances.len()));
     laws.extend(lasting);
     laws.sort_by(|a, b| a.bic.total_cmp(&b.bic));
-    // The best that there is for what is missing, with a name or without.
-    let best = named.map(|first| &first.fitted);
     let law = laws.first().filter(|_| verdict == Verdict::UnknownEffect);
-    let best = best.or(law.map(|law| &law.fitted)).unwrap_or(fitted);
-    let mut unexplained = match (verdict, law, rest) {
-        (Verdict::UnknownEffect, Some(law), _) => law.rest(scene)?.unexplained,
-        (Verdict::UnknownEffect, None, _) => unexplained(scene, fitted)?,
-        (_, _, rest) => rest.map_or(Vec::new(), |rest| rest.unexplained),
-    };
-    if best.is_far_off() {
-        unexplained = clearest(scene, best).into_iter().collect();
-    }
-    if stays_structured || verdict == Verdict::UnknownEffect {
-        unexplained.extend(swings(scene, best)?);
-    }
+    // The best that there is for what is missing, with a name or without.
+    let best = named.map(|first| &first.fitted).or(law.map(|law| &law.fitted)).unwrap_or(fitted);
     let other_laws: Vec<OtherLaw> =
         laws.iter().map(|law| law.told(scene)).collect::<Result<_>>()?;
-    // What doesn't predict better never comes first.
-    let mut order: Vec<usize> = (0..candidates.len()).collect();
-    let bic = |index: usize| candidates[index].bic;
-    order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]).then(bic(a).total_cmp(&bic(b))));
-    order.sort_by_key(|&index| !candidates[index].stands_out());
-    let told = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
-    let is_told =
-        |(rank, index): &(usize, usize)| *rank < told || is_own(candidates[*index].instance());
-    let reports = order
-        .iter()
-        .copied()
-        .enumerate()
-        .filter(is_told)
-        .map(|(_, index)| report(scene, &result, &candidates, index, (odds[index], inflation)))
-        .collect::<Result<Vec<_>>>()?;
     let leaves_more = match (named, law) {
         (None, Some(_)) => other_laws[0].leaves_more,
         (None, None) => verdict == Verdict::UnknownEffect,
         (Some(_), _) => stays_structured,
     };
-    let otherwise = otherwise(best, leaves_more);
     let mut diagnosis = Diagnosis {
-        schema: DIAGNOSIS_SCHEMA.to_string(),
-        scene: scene.name().to_string(),
         verdict,
-        model: result.effects.clone(),
-        channels,
-        reduced_chi2: result.fit.reduced_chi2,
-        candidates: reports,
+        candidates: told(scene, &result, &candidates, &odds, inflation)?,
         probability_of_nothing: none,
         stays_structured,
-        unexplained,
+        unexplained: left_over(scene, best, verdict, rest)?,
         other_laws,
-        otherwise,
-        together: Vec::new(),
-        explanation: String::new(),
-        advice: Vec::new(),
+        otherwise: otherwise(best, leaves_more),
+        ..Diagnosis::new(scene, &result, channels)
     };
     let pair = second.as_ref().map(|(_, labels)| labels.as_str());
     diagnosis.explanation = explanation(&diagnosis, pair);
     diagnosis.advice = advice(scene, fitted, &diagnosis, leaves_more);
+    diagnosis.advice.extend(without_answer(scene, fitted, &instances, &candidates));
+    Ok(diagnosis)
+}
+
+/// What to do about the user's own laws that have no answer.
+fn without_answer(
+    scene: &Scene,
+    fitted: &Fitted,
+    instances: &[Instance],
+    candidates: &[Candidate],
+) -> Vec<String> {
     let has_answer = |instance: &&Instance| {
-        candidates
-            .iter()
-            .any(|candidate| candidate.instance().label(scene) == instance.label(scene))
+        let mut labels = candidates.iter().map(|candidate| candidate.instance().label(scene));
+        let own = instance.label(scene);
+        labels.any(|label| label == own)
     };
     let unanswered = instances.iter().filter(|one| is_own(one) && !has_answer(one));
-    diagnosis.advice.extend(unanswered.map(|one| unfitted(scene, fitted, one)));
-    Ok(diagnosis)
+    unanswered.map(|one| unfitted(scene, fitted, one)).collect()
+}
+
+/// What `best`, the model that explains most, leaves over; `rest`: what the best candidate leaves.
+fn left_over(
+    scene: &Scene,
+    best: &Fitted,
+    verdict: Verdict,
+    rest: Option<Leftover>,
+) -> Result<Vec<Unexplained>> {
+    let is_structured = rest.as_ref().is_some_and(Leftover::is_structured);
+    let mut left = match (best.is_far_off(), verdict) {
+        (true, _) => clearest(scene, best).into_iter().collect(),
+        (false, Verdict::UnknownEffect) => unexplained(scene, best)?,
+        (false, _) => rest.map_or(Vec::new(), |rest| rest.unexplained),
+    };
+    if is_structured || verdict == Verdict::UnknownEffect {
+        left.extend(swings(scene, best)?);
+    }
+    Ok(left)
+}
+
+/// The candidates that stand out, or are the user's own, and the best of the others; `odds`: each one's
+/// probability. What doesn't predict better never comes first.
+fn told(
+    scene: &Scene,
+    result: &Reconstruction,
+    candidates: &[Candidate],
+    odds: &[f64],
+    inflation: f64,
+) -> Result<Vec<CandidateReport>> {
+    let mut order: Vec<usize> = (0..candidates.len()).collect();
+    let bic = |index: usize| candidates[index].bic;
+    order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]).then(bic(a).total_cmp(&bic(b))));
+    order.sort_by_key(|&index| !candidates[index].stands_out());
+    let count = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
+    let is_told =
+        |(rank, index): &(usize, usize)| *rank < count || is_own(candidates[*index].instance());
+    let told = order.into_iter().enumerate().filter(is_told);
+    told.map(|(_, index)| report(scene, result, candidates, index, (odds[index], inflation)))
+        .collect()
 }
 
 /// Whether a candidate explains most of what is missed; where the noise isn't stated, most of what
@@ -151,11 +183,12 @@ fn explains(candidate: &Candidate, before: &Goodness, rest: &Leftover) -> bool {
     let free = rest.unexplained.first().map_or(0.0, |one| one.delta_chi2);
     let gain = candidate.evidence.delta_chi2;
     let of_force = gain > EXPLAINS * (gain + free);
+    let share = if candidate.fitted.is_far_off() { FAR_OFF_LEAVES } else { EXPLAINS };
     let after = rest.goodness;
     of_force
         && match (before.excess, after.excess, &candidate.held_out) {
             _ if !after.is_structured => true,
-            (Some(before), Some(after), _) => after < EXPLAINS * before,
+            (Some(before), Some(after), _) => after < share * before,
             (_, _, Some((before, after))) => {
                 after.position_rmse_m().powi(2) < EXPLAINS * before.position_rmse_m().powi(2)
             }
@@ -182,7 +215,9 @@ fn second(
         let own = first.instance().label(scene);
         let others = instances.iter().filter(|one| one.is_of_a_moment() || one.label(scene) != own);
         let seconds = tried(scene, &first.fitted, &others.cloned().collect::<Vec<_>>());
-        let Some(second) = seconds.iter().find(|second| second.stands_out()) else { continue };
+        let Some(second) = seconds.candidates.iter().find(|second| second.stands_out()) else {
+            continue;
+        };
         let explains = Leftover::of(scene, &second.fitted).is_ok_and(|rest| !rest.is_structured());
         let label =
             format!("{} and {}", first.instance().label(scene), second.instance().label(scene));

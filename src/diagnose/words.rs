@@ -157,7 +157,8 @@ pub(super) fn missing(
 ) -> String {
     let looks = catalogue().iter().find(|effect| effect.name == best.effect);
     let title = looks.map_or(best.effect.as_str(), |effect| effect.title.as_str());
-    let mut text = format!("{} is missing: {title}", best.label());
+    let is = if stays_structured && pair.is_none() { "seems to be" } else { "is" };
+    let mut text = format!("{} {is} missing: {title}", best.label());
     if !best.parameters.is_empty() {
         text += &format!(" ({})", in_words(&best.parameters));
     }

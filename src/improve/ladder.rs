@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::words::explanation;
 use crate::diagnose::{OtherLaw, Otherwise, Together, Verdict, in_words, listed, telling_apart};
 use crate::reconstruct::ParameterEstimate;
 use crate::{Reconstruction, Scene};
@@ -34,13 +35,15 @@ pub struct Improvement {
     /// of the ladder, or explains 95 % of what they do and more than any single one; the best first.
     #[serde(default)]
     pub other_laws: Vec<OtherLaw>,
-    /// What else than missing physics may leave what is left on the last rung: errors of the poses that
-    /// aren't as the model takes them to be.
+    /// What else than missing physics may leave what is left on the last rung: poses that aren't as the
+    /// model takes them to be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub otherwise: Option<Otherwise>,
     /// Of several throws: their restitution and mass ratio on the last rung, put together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Together>,
+    /// The answer in plain words.
+    pub explanation: String,
 }
 
 /// A model on the ladder.
@@ -154,29 +157,34 @@ impl Improvement {
         self.other_laws.first().filter(|_| self.ladder.len() == 1)
     }
 
+    /// Whether the scene seems to be written otherwise than it is read.
+    pub fn is_misread(&self) -> bool {
+        self.otherwise.as_ref().is_some_and(Otherwise::is_misread)
+    }
+
     /// What to film or measure to tell the rungs' effects from what else may be in their place.
     pub fn telling_apart(&self) -> Vec<String> {
         let alike = self.ladder.iter().filter(|rung| !rung.indistinguishable_from.is_empty());
         telling_apart(alike.flat_map(|rung| rung.added.iter().chain(&rung.indistinguishable_from)))
     }
 
-    pub(super) fn new(
-        scene: &Scene,
-        verdict: Verdict,
-        ladder: Vec<Rung>,
-        dropped: Vec<String>,
-        result: Reconstruction,
-    ) -> Improvement {
+    /// With its answer in words.
+    pub(super) fn told(self) -> Improvement {
+        Improvement { explanation: explanation(&self), ..self }
+    }
+
+    pub(super) fn new(scene: &Scene, ladder: Vec<Rung>, result: Reconstruction) -> Improvement {
         Improvement {
             schema: IMPROVEMENT_SCHEMA.to_string(),
             scene: scene.name().to_string(),
             ladder,
-            dropped,
-            verdict,
+            dropped: Vec::new(),
+            verdict: Verdict::UnknownEffect,
             result,
             other_laws: Vec::new(),
             otherwise: None,
             together: Vec::new(),
+            explanation: String::new(),
         }
     }
 

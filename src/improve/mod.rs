@@ -4,11 +4,12 @@ mod alike;
 mod ladder;
 mod search;
 mod throws;
+mod words;
 
 pub use ladder::{EffectEstimate, IMPROVEMENT_SCHEMA, Improvement, Rung};
 pub use throws::improve_throws;
 
-use crate::diagnose::{Explained, Otherwise, Verdict, held_out_rmse_m, reported};
+use crate::diagnose::{Explained, Misread, Otherwise, Verdict, held_out_rmse_m, reported};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
 use crate::reconstruct::refined::{self, Fitted};
@@ -36,6 +37,17 @@ pub fn improve(
     further: &[EffectRequest],
 ) -> Result<Improvement> {
     let base = refined::fit(scene, options)?;
+    let asked_again = |scene: &Scene| {
+        let found = search::best_model(scene, &refined::fit(scene, options)?, further)?;
+        let missing = found.steps.iter().map(|step| step.instance.label(scene)).collect();
+        Ok(Explained { missing, fitted: found.fitted, leaves_more: found.is_structured })
+    };
+    if let Some(misread) = Misread::told(scene, &base, asked_again) {
+        let result = reported(scene, &base)?;
+        let ladder = vec![rung(&base, &result)];
+        let improvement = Improvement::new(scene, ladder, result);
+        return Ok(Improvement { otherwise: Some(misread), ..improvement }.told());
+    }
     let found = search::best_model(scene, &base, further)?;
     let mut fits = vec![base];
     for step in &found.steps {
@@ -65,18 +77,19 @@ pub fn improve(
         (false, true) => Verdict::NothingMissing,
         (false, false) => Verdict::Missing,
     };
-    let improvement = Improvement::new(scene, verdict, rungs, found.dropped, result.clone());
-    let asked_again = |scene: &Scene| {
-        let found = search::best_model(scene, &refined::fit(scene, options)?, further)?;
-        let missing = found.steps.iter().map(|step| step.instance.label(scene)).collect();
-        Ok(Explained { missing, fitted: found.fitted, leaves_more: found.is_structured })
-    };
     let otherwise = match found.other_laws.first() {
         // Poses that a law explains to their noise need no other explanation.
         Some(law) if found.steps.is_empty() && !law.leaves_more => None,
         _ => Otherwise::of(scene, &fits[fits.len() - 1], found.is_structured, asked_again),
     };
-    Ok(Improvement { other_laws: found.other_laws, otherwise, ..improvement })
+    let improvement = Improvement {
+        dropped: found.dropped,
+        verdict,
+        other_laws: found.other_laws,
+        otherwise,
+        ..Improvement::new(scene, rungs, result.clone())
+    };
+    Ok(improvement.told())
 }
 
 /// A rung of the ladder that adds nothing yet.

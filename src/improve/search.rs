@@ -3,8 +3,9 @@
 //! superfluous is dropped at the end.
 
 use crate::diagnose::{
-    Candidate, Evidence, FALSE_ALARM, Goodness, Leftover, OtherLaw, TELLS_APART, all_candidates,
-    evidence, inflation_of, look_alikes, of_a_body, quasi, quasi_bic, rivals, tried,
+    Candidate, Evidence, FALSE_ALARM, Goodness, Leftover, OtherLaw, TELLS_APART, Tried,
+    all_candidates, evidence, inflation_of, look_alikes, of_a_body, quasi, quasi_bic, rivals,
+    tried,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::refined::{Fitted, Instance, points};
@@ -58,11 +59,16 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
     let mut single_bic = 0.0;
     for _ in 0..MOST_EFFECTS {
         let mut ahead = Vec::new();
+        let mut law = None;
         for hypothesis in &climbing {
             let instances = all_candidates(scene, &hypothesis.fitted, further)?;
-            ahead.push((hypothesis, tried(scene, &hypothesis.fitted, &instances)));
+            let mut tried = tried(scene, &hypothesis.fitted, &instances);
+            if hypothesis.steps.is_empty() {
+                law = law_alone(scene, base, &mut tried)?;
+            }
+            ahead.push((hypothesis, tried.candidates));
         }
-        if let Some(law) = law_alone(scene, &best, &ahead)? {
+        if let Some(law) = law {
             return Ok(Found {
                 steps: best.steps,
                 fitted: best.fitted,
@@ -134,23 +140,18 @@ pub(super) fn best_model(scene: &Scene, base: &Fitted, further: &[EffectRequest]
     Ok(Found { steps: best.steps, fitted: best.fitted, dropped, is_structured, other_laws })
 }
 
-/// The law that the catalogue hasn't got and that explains nearly all, where the base model is far off and none
-/// of the candidates `ahead` does as much: effects would but imitate it, one after the other.
-fn law_alone(
-    scene: &Scene,
-    best: &Hypothesis,
-    ahead: &[(&Hypothesis, Vec<Candidate>)],
-) -> Result<Option<OtherLaw>> {
-    if !(best.steps.is_empty() && best.fitted.is_far_off()) {
+/// The law that the catalogue hasn't got and that explains nearly all, where `base` is far off and none of
+/// the candidates `tried` does as much: effects would but imitate it, one after the other.
+fn law_alone(scene: &Scene, base: &Fitted, tried: &mut Tried) -> Result<Option<OtherLaw>> {
+    if !base.is_far_off() {
         return Ok(None);
     }
-    let excess = best.fitted.chi2() - best.fitted.numbers();
+    let excess = base.chi2() - base.numbers();
     let explains = |evidence: &Evidence| evidence.delta > NEARLY_ALL * excess;
-    let candidates: Vec<&Candidate> = ahead.iter().flat_map(|(_, own)| own).collect();
-    if candidates.iter().any(|candidate| explains(&candidate.evidence)) {
+    if tried.candidates.iter().any(|candidate| explains(&candidate.evidence)) {
         return Ok(None);
     }
-    let laws = rivals(scene, &best.fitted, candidates.len())?;
+    let laws = tried.laws(scene, base, tried.candidates.len())?;
     let law = laws.first().filter(|law| explains(&law.evidence));
     law.map(|law| law.told(scene)).transpose()
 }

@@ -69,7 +69,7 @@ pub fn improve_throws(
     let own = added.iter().try_fold(base, |own, added| with_own(&own, added));
     let together = own.map_or(Ok(Vec::new()), |own| together(&own))?;
     let scene = throws[0].scene;
-    Ok(Improvement { together, ..Improvement::new(scene, verdict, ladder, Vec::new(), result) })
+    Ok(Improvement { verdict, together, ..Improvement::new(scene, ladder, result) }.told())
 }
 
 /// Gives each effect the values that all throws say of it with those of the others, in turn: what was

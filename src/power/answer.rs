@@ -113,7 +113,7 @@ fn alike(film: &Film, axis: &Axis, size: f64) -> Result<Option<Alike>> {
     let effect = axis.effect(size);
     let shown = film.shown(&effect)?;
     let instance = sought(&shown.scene, &effect)?;
-    let found = tried(&shown.scene, &shown.fitted, &candidates(&shown, &effect)?);
+    let found = tried(&shown.scene, &shown.fitted, &candidates(&shown, &effect)?).candidates;
     let is_own = |place: &usize| {
         let other = found[*place].instance();
         other.effect.name == instance.effect.name && other.body == instance.body

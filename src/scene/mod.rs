@@ -24,6 +24,7 @@ pub use gaps::Gap;
 pub(crate) use gaps::gaps_between;
 pub(crate) use rounding::smallest_m;
 pub use setting::{Setting, SettingBody, SettingCamera, SettingPlane};
+pub(crate) use units::{direction_in_words, seen_fps, seen_up};
 
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
@@ -128,6 +129,32 @@ impl Scene {
     pub(crate) fn keeping(&self, is_kept: impl Fn(&Observation) -> bool) -> Scene {
         let mut scene = self.clone();
         scene.bodies.iter_mut().for_each(|body| body.observations.retain(&is_kept));
+        scene
+    }
+
+    /// With another direction against gravity.
+    pub(crate) fn with_up(&self, up_in_world: UnitVector3<f64>) -> Scene {
+        Scene { up_in_world, ..self.clone() }
+    }
+
+    /// With another frame rate, if it has one.
+    pub(crate) fn with_fps(&self, fps: f64) -> Scene {
+        let mut scene = Scene { fps: Some(fps), ..self.clone() };
+        let longer = self.fps.unwrap_or(fps) / fps;
+        let poses = scene.bodies.iter_mut().flat_map(|body| &mut body.observations);
+        poses.for_each(|pose| pose.time_s *= longer);
+        scene
+    }
+
+    /// With each orientation turned into another one.
+    pub(crate) fn turning(
+        &self,
+        turned: impl Fn(UnitQuaternion<f64>) -> UnitQuaternion<f64>,
+    ) -> Scene {
+        let mut scene = self.clone();
+        for pose in scene.bodies.iter_mut().flat_map(|body| &mut body.observations) {
+            pose.world_from_body = pose.world_from_body.map(&turned);
+        }
         scene
     }
 

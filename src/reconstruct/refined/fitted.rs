@@ -270,6 +270,18 @@ impl Fitted {
         left.at_least(least_beside(&self.refined, left))
     }
 
+    /// What share of the squares of `other`, the same model of poses that are read otherwise, this leaves; each
+    /// channel by what this leaves in it.
+    pub(crate) fn share_of(&self, other: &Fitted) -> f64 {
+        let solution = &self.best().solution;
+        let [own, other] = [self.left(), other.left()];
+        let (position, orientation) =
+            (positions(&self.refined, solution).0, turns(&self.refined, solution).0);
+        let squares = position * (other.position / own.position).powi(2)
+            + orientation * (other.orientation / own.orientation).powi(2);
+        self.numbers() / squares
+    }
+
     /// How many of the effect's free scalars the data depend on, beside all other unknowns.
     pub(crate) fn directions(&self, acting: &Acting) -> usize {
         /// Of a column's length; less is rounding.

@@ -7,17 +7,19 @@ use nalgebra::Vector3;
 use super::acting::{Acting, possible};
 use super::fitted::Fitted;
 use super::freed::{free_jump, leaving, same_jump};
-use super::optimum::{Optimum, optima_from};
+use super::optimum::{Optimum, gaps, nearest, optima_from};
 use super::parabolas::Parabolas;
 use super::start::{Leaving, freed_candidates};
 use super::starts::{Start, away, extended, is_flat};
-use crate::bridge::refined::ffi::{RefinedScene, RefinedUnknowns, launch};
+use crate::bridge::refined::ffi::{RefinedPose, RefinedScene, RefinedUnknowns, launch};
 use crate::reconstruct::solver_error;
 use crate::{Result, Scene};
 
 /// Segments, and pairs of flights in each, that are tried.
 const MOST_SEGMENTS: usize = 2;
 const MOST_TURNS: usize = 2;
+/// Poses of a flight that show roughly how it goes.
+const ENOUGH: usize = 16;
 /// How many times less sure positions are, at first and then.
 const LOOSER: [f64; 2] = [1000.0, 30.0];
 
@@ -58,8 +60,12 @@ pub(super) fn found_again(
     }
     // Positions are off by metres at first, and would drag the spins after them.
     for times in LOOSER {
-        let loose = optima_from(&loosened(&free, times), &starts)?;
+        let loose = optima_from(&loosened(&thinned(&free, &starts[0].0), times), &starts)?;
         starts = loose.into_iter().map(|one| (one.solution.unknowns, one.gap)).collect();
+    }
+    let gaps = gaps(&free, &starts[0].0)?;
+    for (unknowns, gap) in &mut starts {
+        *gap = nearest(&gaps, unknowns.collision_time_s).unwrap_or(*gap);
     }
     let Optimum { solution, gap, .. } = optima_from(&free, &starts)?.swap_remove(0);
     let launched = launch(&free, &solution.unknowns).map_err(solver_error)?;
@@ -67,6 +73,22 @@ pub(super) fn found_again(
     let mut start = solution.unknowns;
     start.parameters.truncate(refined.parameters.len());
     Ok(same_jump(refined, acting, start, &wanted).map(|start| (start, gap)))
+}
+
+/// The scene with [`ENOUGH`] poses a flight, counted outwards from the collision.
+fn thinned(scene: &RefinedScene, near: &RefinedUnknowns) -> RefinedScene {
+    let mut thinned = scene.clone();
+    for body in &mut thinned.bodies {
+        let before = body.poses.partition_point(|pose| pose.time_s < near.collision_time_s);
+        let after = body.poses.split_off(before);
+        let kept = |flight: Vec<RefinedPose>| -> Vec<RefinedPose> {
+            let every = flight.len().div_ceil(ENOUGH).max(1);
+            flight.into_iter().step_by(every).collect()
+        };
+        let before = kept(std::mem::take(&mut body.poses).into_iter().rev().collect());
+        body.poses = before.into_iter().rev().chain(kept(after)).collect();
+    }
+    thinned
 }
 
 /// The scene with positions so many times less sure.

@@ -208,7 +208,8 @@ fn pose_times(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Result<Vec<Ve
     Ok(times)
 }
 
-fn gaps(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Result<Vec<Gap>> {
+/// The gaps that the collision can be in, with the poses at their times in the model.
+pub(super) fn gaps(scene: &RefinedScene, unknowns: &RefinedUnknowns) -> Result<Vec<Gap>> {
     Ok(gaps_between(&pose_times(scene, unknowns)?, LEAST_POSES))
 }
 

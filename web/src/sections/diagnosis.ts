@@ -17,15 +17,7 @@ export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) 
   return [
     element('p', { class: 'label' }, `Asked of ${asked}`),
     element('p', { class: 'lead', 'data-testid': 'explanation' }, diagnosis.explanation),
-    diagnosis.candidates.length > 0 && candidates(diagnosis, adder),
-    element(
-      'p',
-      { class: 'hint' },
-      (diagnosis.verdict === 'unknown_effect'
-        ? 'No candidate explains the poses: the probabilities are how they compare with each other. '
-        : `The probability that nothing is missing: ${probability(diagnosis.probability_of_nothing)}. `) +
-        'A p-value counts all candidates. Held out: how far the fit misses positions that it hasn’t seen, without and with the effect.',
-    ),
+    ...(diagnosis.candidates.length > 0 ? [candidates(diagnosis, adder), hint(diagnosis)] : []),
     ...(diagnosis.unexplained ?? []).map(unexplained),
     diagnosis.advice.length > 0 &&
       element(
@@ -39,6 +31,16 @@ export function diagnosisSection(diagnosis: Diagnosis, adder?: (effect: string) 
         ),
       ),
   ];
+}
+
+function hint(diagnosis: Diagnosis): HTMLElement {
+  const probabilities =
+    diagnosis.verdict === 'unknown_effect'
+      ? 'No candidate explains the poses: the probabilities are how they compare with each other.'
+      : `The probability that nothing is missing: ${probability(diagnosis.probability_of_nothing)}.`;
+  const rest =
+    'A p-value counts all candidates. Held out: how far the fit misses positions that it hasn’t seen, without and with the effect.';
+  return element('p', { class: 'hint' }, `${probabilities} ${rest}`);
 }
 
 function candidates(diagnosis: Diagnosis, adder?: (effect: string) => HTMLElement): HTMLElement {

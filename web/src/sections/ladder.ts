@@ -3,7 +3,7 @@
 import { element } from '../element';
 import type { Child } from '../element';
 import { angle, length, pValue, significant } from '../numbers';
-import type { Improvement, OtherLaw, Rung } from '../report';
+import type { Improvement, Rung } from '../report';
 import { savers } from '../plots/savers';
 import { save, saveImage } from '../save';
 import { svgFile } from '../svg';
@@ -11,26 +11,11 @@ import { table } from '../table';
 import { parametersInWords } from './estimates';
 import { ladderPlot } from './ladder_plot';
 
-const VERDICTS = {
-  nothing_missing: 'Nothing is missing that these poses could show.',
-  missing: 'With the last rung nothing more is missing that these poses could show.',
-  unknown_effect: 'Something is left that no effect of the catalogue explains.',
-};
-
-/** The verdict in a sentence. */
-export function verdictOf(improvement: Improvement): string {
-  return isOfALaw(improvement)
-    ? 'No effect of the catalogue explains the poses.'
-    : VERDICTS[improvement.verdict];
-}
-
 export function ladder(improvement: Improvement): Child[] {
   const plot = ladderPlot(improvement.ladder);
   const dropped = improvement.dropped;
-  const law = improvement.other_laws?.[0];
   return [
-    element('p', {}, verdictOf(improvement)),
-    improvement.otherwise && element('p', { 'data-testid': 'otherwise' }, improvement.otherwise.words),
+    element('p', {}, improvement.explanation),
     element(
       'figure',
       { class: 'plot' },
@@ -73,29 +58,9 @@ export function ladder(improvement: Improvement): Child[] {
       improvement.ladder.map(row),
       'ladder',
     ),
-    law &&
-      element(
-        'p',
-        {},
-        `A law alone that the catalogue hasn’t got ${lawDoes(improvement, law)}: ` +
-          `on ${law.effect.body ?? 'all bodies'}, one that goes with ${law.goes_with}: ${law.law} with ` +
-          `${parametersInWords(law.effect.parameters)}.`,
-      ),
     dropped.length > 0 &&
       element('p', {}, `Added on the way, and superfluous in the end: ${dropped.join(', ')}.`),
   ];
-}
-
-/** Whether a law that the catalogue hasn't got explains alone what no effect does. */
-function isOfALaw(improvement: Improvement): boolean {
-  return improvement.ladder.length === 1 && (improvement.other_laws ?? []).length > 0;
-}
-
-function lawDoes(improvement: Improvement, law: OtherLaw): string {
-  if (!isOfALaw(improvement)) return 'does as well or nearly so';
-  return law.leaves_more
-    ? 'explains nearly all that is missing, though not all'
-    : 'explains the poses to their noise';
 }
 
 function row(rung: Rung): Child[] {

@@ -6,7 +6,6 @@ import { angle, length, significant, withDeviation, withUnit } from '../numbers'
 import type { Estimate, Model, Report } from '../report';
 import { flagInWords, label } from '../words';
 import type { Doubt } from '../words';
-import { verdictOf } from './ladder';
 
 export function summary(report: Report, model: Model | null): HTMLElement[] {
   if (model === null) return [element('p', {}, 'This report holds no result.')];
@@ -40,11 +39,7 @@ function ofLadder(improvement: Report['improvement'], model: Model): string | nu
   const last = improvement?.ladder.at(-1);
   const isRefined = model.result.preset === 'refined';
   if (!last || !improvement || !isRefined || !hasEffects(model, last.with)) return null;
-  const verdict =
-    improvement.verdict === 'unknown_effect'
-      ? verdictOf(improvement)
-      : 'Nothing more is missing that these poses could show.';
-  return [verdict, improvement.otherwise?.words].filter(Boolean).join(' ');
+  return improvement.explanation;
 }
 
 function hasEffects(model: Model, labels: string[]): boolean {

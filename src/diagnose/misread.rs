@@ -1,0 +1,153 @@
+//! A scene that is written otherwise than it is read: another `up`, another `fps`, another order of the
+//! quaternions' components, or quaternions that map the world to the body. What is wrong there looks like physics.
+
+use nalgebra::{Quaternion, UnitQuaternion, UnitVector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::otherwise::{Cause, Explained, Otherwise};
+use crate::reconstruct::refined::Fitted;
+use crate::scene::{direction_in_words, seen_fps, seen_up};
+use crate::{Result, Scene};
+
+/// Read rightly, a scene is missed by less than this share of the squares; no law is in the way.
+const MUCH_LESS: f64 = 0.1;
+
+/// How the scene's fields would have to be read; null where they are as they are read.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Misread {
+    /// The direction against gravity.
+    pub up: Option<[f64; 3]>,
+    /// Frames per second.
+    pub fps: Option<f64>,
+    /// What the quaternions are.
+    pub orientations: Option<Orientations>,
+}
+
+/// What quaternions may be that aren't `[w, x, y, z]` and map the body to the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Orientations {
+    /// `[x, y, z, w]`.
+    ScalarLast,
+    /// They map the world to the body.
+    Inverse,
+    /// `[x, y, z, w]` that map the world to the body.
+    ScalarLastInverse,
+}
+
+impl Orientations {
+    const ALL: [Orientations; 3] =
+        [Orientations::ScalarLast, Orientations::Inverse, Orientations::ScalarLastInverse];
+
+    /// What was read as `orientation` is this.
+    fn read(self, orientation: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
+        let scalar_last = || {
+            let Quaternion { coords: read } = orientation.into_inner();
+            // nalgebra keeps [x, y, z, w]; the file's four were read as w, x, y, z.
+            UnitQuaternion::new_unchecked(Quaternion::new(read.z, read.w, read.x, read.y))
+        };
+        match self {
+            Orientations::ScalarLast => scalar_last(),
+            Orientations::Inverse => orientation.inverse(),
+            Orientations::ScalarLastInverse => scalar_last().inverse(),
+        }
+    }
+
+    fn in_words(self) -> &'static str {
+        match self {
+            Orientations::ScalarLast => "quaternions as [x, y, z, w]",
+            Orientations::Inverse => "quaternions as maps from the world to the body",
+            Orientations::ScalarLastInverse => {
+                "quaternions as [x, y, z, w] that map the world to the body"
+            }
+        }
+    }
+
+    fn mend(self) -> &'static str {
+        match self {
+            Orientations::ScalarLast => "write the quaternions as [w, x, y, z]",
+            Orientations::Inverse => {
+                "write quaternions that map the body to the world: turn the sign of x, y and z"
+            }
+            Orientations::ScalarLastInverse => {
+                "write the quaternions as [w, -x, -y, -z]: scalar first, from the body to the world"
+            }
+        }
+    }
+}
+
+impl Misread {
+    /// Of `scene`, whose model leaves `fitted`, with what is missing once it is read rightly; `None` where it
+    /// isn't far off, or no other reading does much better. `explained`: another scene of the same collision.
+    pub(crate) fn told(
+        scene: &Scene,
+        fitted: &Fitted,
+        explained: impl FnOnce(&Scene) -> Result<Explained>,
+    ) -> Option<Otherwise> {
+        let up = seen_up(scene).map(|up| [up.x, up.y, up.z]);
+        let falls = Misread { up, fps: seen_fps(scene), orientations: None };
+        if !(fitted.is_lost() || falls.is_other()) {
+            return None;
+        }
+        let (reading, scene) =
+            falls.all(scene).map(|reading| (reading, reading.read(scene))).find(|(_, scene)| {
+                let read = fitted.of(scene);
+                read.is_ok_and(|read| !read.is_lost() && read.share_of(fitted) < MUCH_LESS)
+            })?;
+        let missing = explained(&scene).ok()?;
+        Some(reading.otherwise(missing))
+    }
+
+    /// Whether anything is read otherwise.
+    fn is_other(self) -> bool {
+        self.up.is_some() || self.fps.is_some() || self.orientations.is_some()
+    }
+
+    /// All other readings, some with the falls as this says, the simplest first.
+    fn all(self, scene: &Scene) -> impl Iterator<Item = Misread> {
+        let as_stated = Misread { up: None, fps: None, orientations: None };
+        let falls = std::iter::once(as_stated).chain(self.is_other().then_some(self));
+        let others = Orientations::ALL.into_iter().filter(|_| scene.has_orientations());
+        let turns = std::iter::once(None).chain(others.map(Some));
+        let all = falls.flat_map(move |falls| {
+            turns.clone().map(move |orientations| Misread { orientations, ..falls })
+        });
+        all.filter(|reading| reading.is_other())
+    }
+
+    fn read(self, scene: &Scene) -> Scene {
+        let mut read = scene.clone();
+        if let Some(up) = self.up {
+            read = read.with_up(UnitVector3::new_normalize(up.into()));
+        }
+        if let Some(fps) = self.fps {
+            read = read.with_fps(fps);
+        }
+        if let Some(orientations) = self.orientations {
+            read = read.turning(|orientation| orientations.read(orientation));
+        }
+        read
+    }
+
+    fn otherwise(self, explained: Explained) -> Otherwise {
+        let up = self.up.map(|up| format!("`up` as {}", direction_in_words(up)));
+        let fps = self.fps.map(|fps| format!("`fps` as {fps}"));
+        let falls: Vec<String> = up.into_iter().chain(fps).collect();
+        let turns = self.orientations;
+        let read = falls.iter().cloned().chain(turns.map(|one| one.in_words().to_string()));
+        let write = falls.iter().map(|one| format!("give {one}"));
+        let write = write.chain(turns.map(|one| one.mend().to_string()));
+        let and = |parts: Vec<String>| parts.join(", and ");
+        Otherwise {
+            words: format!(
+                "The scene seems to be written otherwise than it is read: with {}, {}.",
+                and(read.collect()),
+                explained.shows()
+            ),
+            mend: format!("{}, and ask again", and(write.collect())),
+            missing: explained.missing,
+            cause: Cause::Misread(self),
+        }
+    }
+}
