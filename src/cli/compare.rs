@@ -1,6 +1,5 @@
 //! `smash compare`: results against the poses, and against each other.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -67,33 +66,44 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     if let Some(output) = &output {
         output.write(json.as_bytes())?;
     }
-    if let Some(folder) = &folder {
-        draw(folder, &scene, &results)?;
-    }
+    let drawn = match &folder {
+        Some(folder) => draw(folder, &scene, &results)?,
+        None => Vec::new(),
+    };
     match &output {
         // Standard output carries the data already.
         Some(output) if output.is_standard_output() => Ok(()),
         _ if arguments.json => print_bytes(json.as_bytes()),
-        _ => print_bytes(comparison::in_words(&comparison).as_bytes()),
+        _ => {
+            let mut words = comparison::in_words(&comparison);
+            if let Some(folder) = &arguments.svg {
+                words += &format!("\nPlots in {}: {}\n", folder.display(), drawn.join(", "));
+            }
+            print_bytes(words.as_bytes())
+        }
     }
 }
 
-/// A picture for each result and body.
-fn draw(folder: &OutputFolder, scene: &Scene, results: &[(String, Reconstruction)]) -> Result<()> {
-    let mut taken = HashSet::new();
+/// A picture for each result and body; the files' names.
+fn draw(
+    folder: &OutputFolder,
+    scene: &Scene,
+    results: &[(String, Reconstruction)],
+) -> Result<Vec<String>> {
+    let mut taken: Vec<String> = Vec::new();
     for (name, result) in results {
         let stem = Path::new(name).file_stem().map_or(name.clone(), |s| s.to_string_lossy().into());
         for plot in plots(scene, name, result).map_err(|error| error.in_file(name))? {
             let wanted = format!("{}-{}", plain(&stem), plain(&plot.body));
-            let numbered = (2..).map(|number| format!("{wanted}-{number}"));
-            let free =
-                std::iter::once(wanted.clone()).chain(numbered).find(|one| !taken.contains(one));
-            let file = free.unwrap_or(wanted);
-            folder.output(&format!("{file}.svg"))?.write(plot.svg.as_bytes())?;
-            taken.insert(file);
+            let numbered = (2..).map(|number| format!("{wanted}-{number}.svg"));
+            let first = format!("{wanted}.svg");
+            let mut names = std::iter::once(first.clone()).chain(numbered);
+            let file = names.find(|name| !taken.contains(name)).unwrap_or(first);
+            folder.output(&file)?.write(plot.svg.as_bytes())?;
+            taken.push(file);
         }
     }
-    Ok(())
+    Ok(taken)
 }
 
 /// `name` with what a file's name can't have everywhere as `_`.

@@ -1,5 +1,7 @@
 //! What to film, measure or type next.
 
+use super::Candidate;
+use super::candidates::is_own;
 use super::diagnosis::{Diagnosis, Verdict};
 use super::rivals::OtherLaw;
 use crate::Scene;
@@ -87,8 +89,24 @@ impl OtherLaw {
     }
 }
 
+/// What to do about the user's own laws that have no answer.
+pub(super) fn without_answer(
+    scene: &Scene,
+    fitted: &Fitted,
+    instances: &[Instance],
+    candidates: &[Candidate],
+) -> Vec<String> {
+    let has_answer = |instance: &&Instance| {
+        let mut labels = candidates.iter().map(|candidate| candidate.instance().label(scene));
+        let own = instance.label(scene);
+        labels.any(|label| label == own)
+    };
+    let unanswered = instances.iter().filter(|one| is_own(one) && !has_answer(one));
+    unanswered.map(|one| unfitted(scene, fitted, one)).collect()
+}
+
 /// What to do about a user's law that couldn't be fitted, or that nothing depends on.
-pub(super) fn unfitted(scene: &Scene, fitted: &Fitted, law: &Instance) -> String {
+fn unfitted(scene: &Scene, fitted: &Fitted, law: &Instance) -> String {
     let (known, label) = (known_effects(scene, fitted), law.label(scene));
     format!(
         "{label} couldn't be fitted, or changes nothing here; this says why: smash reconstruct \

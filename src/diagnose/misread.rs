@@ -12,6 +12,9 @@ use crate::{Result, Scene};
 
 /// Read rightly, a scene is missed by less than this share of the squares; no law is in the way.
 const MUCH_LESS: f64 = 0.1;
+/// Of readings that leave no more than so many times what the best one leaves, the simplest is told: a cube's
+/// flights hardly tell some apart.
+const AS_GOOD: f64 = 1.5;
 
 /// How the scene's fields would have to be read; null where they are as they are read.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -90,13 +93,19 @@ impl Misread {
         if !(fitted.is_lost() || falls.is_other()) {
             return None;
         }
-        let (reading, scene) =
-            falls.all(scene).map(|reading| (reading, reading.read(scene))).find(|(_, scene)| {
-                let read = fitted.of(scene);
-                read.is_ok_and(|read| !read.is_lost() && read.share_of(fitted) < MUCH_LESS)
-            })?;
-        let missing = explained(&scene).ok()?;
-        Some(reading.otherwise(missing))
+        let left = |reading: Misread| {
+            let scene = reading.read(scene);
+            let read = fitted.of(&scene).ok()?;
+            let share = read.share_of(fitted)?;
+            (share < MUCH_LESS).then_some((share, reading, scene, read.is_lost()))
+        };
+        let good: Vec<_> = falls.all(scene).filter_map(left).collect();
+        let least = good.iter().map(|(share, ..)| *share).fold(f64::INFINITY, f64::min);
+        let (_, reading, scene, is_lost) =
+            good.into_iter().find(|(share, ..)| *share < AS_GOOD * least)?;
+        let explained = explained(&scene).ok()?;
+        // Lost in one way, a fit may be less lost in another.
+        (!is_lost || !explained.leaves_more).then(|| reading.otherwise(explained))
     }
 
     /// Whether anything is read otherwise.
@@ -104,15 +113,11 @@ impl Misread {
         self.up.is_some() || self.fps.is_some() || self.orientations.is_some()
     }
 
-    /// All other readings, some with the falls as this says, the simplest first.
+    /// All other readings with the falls as this says, the simplest first.
     fn all(self, scene: &Scene) -> impl Iterator<Item = Misread> {
-        let as_stated = Misread { up: None, fps: None, orientations: None };
-        let falls = std::iter::once(as_stated).chain(self.is_other().then_some(self));
         let others = Orientations::ALL.into_iter().filter(|_| scene.has_orientations());
         let turns = std::iter::once(None).chain(others.map(Some));
-        let all = falls.flat_map(move |falls| {
-            turns.clone().map(move |orientations| Misread { orientations, ..falls })
-        });
+        let all = turns.map(move |orientations| Misread { orientations, ..self });
         all.filter(|reading| reading.is_other())
     }
 

@@ -31,6 +31,7 @@ mod throws;
 mod throws_in_words;
 mod throws_told;
 mod together;
+mod told;
 mod unexplained;
 mod verdict;
 mod words;

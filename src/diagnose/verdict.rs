@@ -1,23 +1,20 @@
 //! From the evidence to an answer.
 
-use super::advice::{advice, unfitted};
-use super::candidates::is_own;
-use super::diagnosis::{CandidateReport, Diagnosis, Shift, Verdict};
+use super::advice::{advice, without_answer};
+use super::diagnosis::{Diagnosis, Verdict};
 use super::leftover::Leftover;
 use super::otherwise::Otherwise;
-use super::ranking::{TELLS_APART, first, look_alikes, probabilities, rank};
+use super::ranking::{TELLS_APART, first, probabilities, rank};
 use super::rivals::{OtherLaw, Rival, lasting_push};
 use super::swing::swings;
+use super::told::told;
 use super::unexplained::{Unexplained, clearest, unexplained};
 use super::words::explanation;
 use super::{Candidate, Goodness, Tried, reported, tried};
 use crate::compare::channels;
 use crate::reconstruct::refined::{Fitted, Instance};
-use crate::reconstruct::{Estimate, Reconstruction};
 use crate::{Result, Scene};
 
-/// Candidates that are told even if they don't stand out.
-const FEWEST_TOLD: usize = 5;
 /// Firsts of a pair that are tried where one effect isn't enough.
 const FIRSTS: usize = 3;
 /// An effect that leaves more than this share of what the model misses doesn't explain it.
@@ -121,22 +118,6 @@ pub(super) fn diagnosis(
     Ok(diagnosis)
 }
 
-/// What to do about the user's own laws that have no answer.
-fn without_answer(
-    scene: &Scene,
-    fitted: &Fitted,
-    instances: &[Instance],
-    candidates: &[Candidate],
-) -> Vec<String> {
-    let has_answer = |instance: &&Instance| {
-        let mut labels = candidates.iter().map(|candidate| candidate.instance().label(scene));
-        let own = instance.label(scene);
-        labels.any(|label| label == own)
-    };
-    let unanswered = instances.iter().filter(|one| is_own(one) && !has_answer(one));
-    unanswered.map(|one| unfitted(scene, fitted, one)).collect()
-}
-
 /// What `best`, the model that explains most, leaves over; `rest`: what the best candidate leaves.
 fn left_over(
     scene: &Scene,
@@ -154,27 +135,6 @@ fn left_over(
         left.extend(swings(scene, best)?);
     }
     Ok(left)
-}
-
-/// The candidates that stand out, or are the user's own, and the best of the others; `odds`: each one's
-/// probability. What doesn't predict better never comes first.
-fn told(
-    scene: &Scene,
-    result: &Reconstruction,
-    candidates: &[Candidate],
-    odds: &[f64],
-    inflation: f64,
-) -> Result<Vec<CandidateReport>> {
-    let mut order: Vec<usize> = (0..candidates.len()).collect();
-    let bic = |index: usize| candidates[index].bic;
-    order.sort_by(|&a, &b| odds[b].total_cmp(&odds[a]).then(bic(a).total_cmp(&bic(b))));
-    order.sort_by_key(|&index| !candidates[index].stands_out());
-    let count = candidates.iter().filter(|c| c.stands_out()).count().max(FEWEST_TOLD);
-    let is_told =
-        |(rank, index): &(usize, usize)| *rank < count || is_own(candidates[*index].instance());
-    let told = order.into_iter().enumerate().filter(is_told);
-    told.map(|(_, index)| report(scene, result, candidates, index, (odds[index], inflation)))
-        .collect()
 }
 
 /// Whether a candidate explains most of what is missed; where the noise isn't stated, most of what
@@ -225,57 +185,4 @@ fn second(
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     pairs.into_iter().find(|(_, _, explains)| *explains).map(|(bic, label, _)| (bic, label))
-}
-
-fn report(
-    scene: &Scene,
-    before: &Reconstruction,
-    candidates: &[Candidate],
-    index: usize,
-    (probability, inflation): (f64, f64),
-) -> Result<CandidateReport> {
-    let candidate = &candidates[index];
-    let after = reported(scene, &candidate.fitted)?;
-    let shifts = shifts(before, &after);
-    let effect = after.effects.into_iter().next_back();
-    let instance = candidate.instance();
-    let alike = look_alikes(candidates, index, inflation).into_iter();
-    Ok(CandidateReport {
-        effect: instance.effect.name.clone(),
-        body: instance.body.map(|body| scene.bodies()[body].name.clone()),
-        delta_chi2: candidate.evidence.delta_chi2,
-        parameters_added: candidate.evidence.parameters,
-        p_value: candidate.evidence.p_value,
-        probability,
-        stands_out: candidate.stands_out(),
-        heldout_rmse_before: candidate
-            .held_out
-            .as_ref()
-            .map(|(before, _)| before.position_rmse_m()),
-        heldout_rmse_after: candidate.held_out.as_ref().map(|(_, after)| after.position_rmse_m()),
-        reduced_chi2: after.fit.reduced_chi2,
-        parameters: effect.map(|effect| effect.parameters).unwrap_or_default(),
-        indistinguishable_from: alike
-            .map(|other| candidates[other].instance().label(scene))
-            .collect(),
-        shifts,
-        throws: None,
-    })
-}
-
-/// What the mass ratio and the restitution do.
-pub(crate) fn shifts(before: &Reconstruction, after: &Reconstruction) -> Vec<Shift> {
-    let shift = |quantity: &str, before: Option<&Estimate>, after: Option<&Estimate>| {
-        let (before, after) = (before?, after?);
-        let (from, to) = (before.value?, after.value?);
-        let in_sigma = before.std.filter(|std| *std > 0.0).map(|std| (to - from) / std);
-        Some(Shift { quantity: quantity.to_string(), before: from, after: to, in_sigma })
-    };
-    [
-        shift("mass_ratio", before.mass_ratio.as_ref(), after.mass_ratio.as_ref()),
-        shift("restitution", Some(&before.restitution), Some(&after.restitution)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
 }

@@ -73,7 +73,7 @@ fn helping(best: Option<&CandidateReport>, law: Option<&OtherLaw>) -> String {
     match (best, law) {
         (Some(best), Some(law)) => format!(
             " The best candidate, {}, helps (χ² falls by {}), but a law that the catalogue hasn't \
-             got explains it better (by {}): {}. {}.",
+             got explains more (χ² falls by {}): {}. {}.",
             best.label(),
             significant(best.delta_chi2, 3),
             significant(law.delta_chi2, 3),

@@ -94,7 +94,8 @@ fn fps_of(scene: &Scene, acceleration: Vector3<f64>) -> Option<f64> {
     let in_gravity = -acceleration / scene.gravity_m_s2();
     let ratio = in_gravity.dot(&scene.up_in_world());
     let aside = in_gravity - ratio * scene.up_in_world().into_inner();
-    if (1.0 / LEAST_FACTOR..LEAST_FACTOR).contains(&ratio) || aside.norm() > SURELY_OTHER * ratio {
+    let is_far = !(1.0 / LEAST_FACTOR..LEAST_FACTOR).contains(&ratio) && unit_of(ratio).is_none();
+    if !is_far || aside.norm() > SURELY_OTHER * ratio {
         return None;
     }
     let seen = scene.fps()? / ratio.sqrt();

@@ -165,11 +165,35 @@ fn gravity_in_centimetres_is_told() {
 }
 
 #[test]
-fn an_up_that_points_down_is_told() {
-    let value = edited(two_boxes(), |s| s["up"] = json!([0, -1, 0]));
-    let scene = Scene::parse(&value.to_string(), "down.json").unwrap();
-    let texts: Vec<_> = scene.warnings().iter().map(|one| one.text.as_str()).collect();
-    assert!(texts.len() == 2 && texts.iter().all(|one| one.contains("point down")), "{texts:?}");
+fn an_up_that_points_down_or_aside_is_told() {
+    for up in [[0, -1, 0], [1, 0, 0], [0, 0, -1]] {
+        let warnings = warnings_with("up", json!(up));
+        let told = "`up` seems to be [0, 1, 0]";
+        assert!(
+            warnings.len() == 2 && warnings.iter().all(|one| one.contains(told)),
+            "{warnings:?}"
+        );
+    }
+}
+
+/// A frame rate enters a fall with its square; one that is a little off is a gravity scale.
+#[test]
+fn a_frame_rate_that_is_far_from_a_usual_one_is_told() {
+    let fps = two_boxes()["fps"].as_f64().unwrap();
+    for factor in [0.4, 0.5, 2.0] {
+        let warnings = warnings_with("fps", json!(factor * fps));
+        let told = format!("`fps` seems to be {fps}");
+        let are_all = warnings.iter().all(|one| one.contains(&told));
+        assert!(warnings.len() == 2 && are_all, "{factor}: {warnings:?}");
+    }
+    assert_eq!(warnings_with("fps", json!(1.2 * fps)), [""; 0]);
+}
+
+/// What two boxes are warned about with another value of a field.
+fn warnings_with(field: &str, value: serde_json::Value) -> Vec<String> {
+    let value = edited(two_boxes(), |s| s[field] = value.clone());
+    let scene = Scene::parse(&value.to_string(), "scene.json").unwrap();
+    scene.warnings().iter().map(|one| one.text.clone()).collect()
 }
 
 /// Between two poses before it and two after it the collision can be nowhere else, however long it

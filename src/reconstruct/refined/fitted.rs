@@ -271,15 +271,17 @@ impl Fitted {
     }
 
     /// What share of the squares of `other`, the same model of poses that are read otherwise, this leaves; each
-    /// channel by what this leaves in it.
-    pub(crate) fn share_of(&self, other: &Fitted) -> f64 {
+    /// channel by what this leaves in it. `None` where it leaves more in one.
+    pub(crate) fn share_of(&self, other: &Fitted) -> Option<f64> {
+        /// What a channel that nothing changed differs by.
+        const AS_MUCH: f64 = 0.9;
         let solution = &self.best().solution;
         let [own, other] = [self.left(), other.left()];
-        let (position, orientation) =
-            (positions(&self.refined, solution).0, turns(&self.refined, solution).0);
-        let squares = position * (other.position / own.position).powi(2)
-            + orientation * (other.orientation / own.orientation).powi(2);
-        self.numbers() / squares
+        let [position, orientation] =
+            [other.position / own.position, other.orientation / own.orientation];
+        let squares = positions(&self.refined, solution).0 * position.powi(2)
+            + turns(&self.refined, solution).0 * orientation.powi(2);
+        (position.min(orientation) > AS_MUCH).then_some(self.numbers() / squares)
     }
 
     /// How many of the effect's free scalars the data depend on, beside all other unknowns.

@@ -5,6 +5,7 @@ mod clean;
 mod command;
 mod exact;
 mod hidden;
+mod misread;
 mod noise;
 mod objects;
 mod pairs;

@@ -100,15 +100,13 @@ fn a_strong_rocket_is_told_with_its_thrust() {
     assert!(is_in_band(&improvement.result, LAWS), "{:?}", improvement.result.fit);
 }
 
-/// Nothing is missing from the physics: the quaternions are in another order.
+/// Nothing is missing from the physics: one body's quaternions are in another order.
 #[test]
-fn a_scene_that_is_misread_is_told_to_be_checked() {
+fn a_scene_that_is_misread_in_part_is_told_to_be_checked() {
     let file = simulate(&boxes(5)).unwrap().scene_file.to_json();
     let mut scene: Value = serde_json::from_str(&file).unwrap();
-    for body in scene["bodies"].as_array_mut().unwrap() {
-        for pose in body["observations"].as_array_mut().unwrap() {
-            pose["orientation"].as_array_mut().unwrap().rotate_left(1);
-        }
+    for pose in scene["bodies"][0]["observations"].as_array_mut().unwrap() {
+        pose["orientation"].as_array_mut().unwrap().rotate_left(1);
     }
     let scene = Scene::parse(&scene.to_string(), "misread").unwrap();
     let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
