@@ -36,6 +36,14 @@ impl Case {
         Output::check(&folder.join(name), &[])?.write(self.scene.to_file().to_json().as_bytes())
     }
 
+    /// What became of it; an error names it.
+    ///
+    /// # Errors
+    /// Those of `tried`.
+    pub fn told<T>(&self, tried: impl FnOnce(&Case) -> Result<T>) -> Result<T> {
+        tried(self).map_err(|error| error.in_file(format!("{} {}", self.kind(), self.name)))
+    }
+
     /// The effects' names, joined by `+`, in the order of the alphabet.
     pub fn kind(&self) -> String {
         let mut names: Vec<&str> =

@@ -64,7 +64,8 @@ impl Outside {
 /// # Errors
 /// A case can't be reconstructed.
 pub fn table(cases: &[Case]) -> Result<String> {
-    let all: Vec<Outside> = cases.par_iter().map(Outside::of).collect::<Result<_>>()?;
+    let all: Vec<Outside> =
+        cases.par_iter().map(|case| case.told(Outside::of)).collect::<Result<_>>()?;
     let mut laws: Vec<&str> = all.iter().map(|outside| outside.law.as_str()).collect();
     laws.sort();
     laws.dedup();

@@ -41,7 +41,8 @@ impl Pair {
 /// # Errors
 /// A case can't be reconstructed.
 pub fn table(cases: &[Case]) -> Result<String> {
-    let pairs: Vec<Pair> = cases.par_iter().map(Pair::of).collect::<Result<_>>()?;
+    let pairs: Vec<Pair> =
+        cases.par_iter().map(|case| case.told(Pair::of)).collect::<Result<_>>()?;
     let share =
         |is: fn(&Pair) -> bool| percent(pairs.iter().filter(|pair| is(pair)).count(), pairs.len());
     let mut text = format!(

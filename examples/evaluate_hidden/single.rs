@@ -86,7 +86,8 @@ fn failure(case: &Case, answer: &Answer, with: &Fit, missed: Option<f64>) -> Res
 /// # Errors
 /// A case can't be reconstructed.
 pub fn tables(cases: &[Case]) -> Result<String> {
-    let singles: Vec<Single> = cases.par_iter().map(Single::of).collect::<Result<_>>()?;
+    let singles: Vec<Single> =
+        cases.par_iter().map(|case| case.told(Single::of)).collect::<Result<_>>()?;
     let mut kinds: Vec<&str> = singles.iter().map(|single| single.kind.as_str()).collect();
     kinds.sort();
     kinds.dedup();

@@ -146,7 +146,7 @@ impl Misread {
         let and = |parts: Vec<String>| parts.join(", and ");
         Otherwise {
             words: format!(
-                "The scene seems to be written otherwise than it is read: with {}, {}.",
+                "The scene may be written otherwise than it is read: with {}, {}.",
                 and(read.collect()),
                 explained.shows()
             ),
