@@ -2,15 +2,18 @@
 //! quaternions' components, or quaternions that map the world to the body. What is wrong there looks like physics.
 
 use nalgebra::{Quaternion, UnitQuaternion, UnitVector3};
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::all_candidates;
 use super::otherwise::{Cause, Explained, Otherwise};
-use crate::reconstruct::refined::Fitted;
+use crate::effect::EffectRequest;
+use crate::reconstruct::refined::{Fitted, Instance};
 use crate::scene::{direction_in_words, seen_fps, seen_up};
 use crate::{Result, Scene};
 
-/// Read rightly, a scene is missed by less than this share of the squares; no law is in the way.
+/// Read rightly, a scene is missed by less than this share of the squares.
 const MUCH_LESS: f64 = 0.1;
 /// Of readings that leave no more than so many times what the best one leaves, the simplest is told: a cube's
 /// flights hardly tell some apart.
@@ -81,13 +84,41 @@ impl Orientations {
 }
 
 impl Misread {
-    /// Of `scene`, whose model leaves `fitted`, with what is missing once it is read rightly; `None` where it
-    /// isn't far off, or no other reading does much better. `explained`: another scene of the same collision.
+    /// Of `scene`, whose model leaves `fitted`, with what is missing once it is read rightly, and whether an
+    /// effect (`further`: beyond the catalogue) explains as much of it as it is; `None` where it isn't far
+    /// off, or no other reading does much better. `explained`: another scene of the same collision.
+    ///
+    /// # Errors
+    /// An effect doesn't fit the scene.
     pub(crate) fn told(
         scene: &Scene,
         fitted: &Fitted,
+        further: &[EffectRequest],
         explained: impl FnOnce(&Scene) -> Result<Explained>,
-    ) -> Option<Otherwise> {
+    ) -> Result<Option<(Otherwise, bool)>> {
+        let found = Misread::found(scene, fitted);
+        let Some((reading, Ok(explained), is_lost)) =
+            found.map(|(reading, read, is_lost)| (reading, explained(&read), is_lost))
+        else {
+            return Ok(None);
+        };
+        // Lost in one way, a fit may be less lost in another.
+        if is_lost && explained.leaves_more {
+            return Ok(None);
+        }
+        let instances = all_candidates(scene, fitted, further)?;
+        let does_as_well = |instance: &Instance| {
+            let with = fitted.with_at_once(scene, instance);
+            let share = |with| explained.fitted.share_of(&with);
+            with.is_ok_and(|with| share(with).is_none_or(|share| share * AS_GOOD > 1.0))
+        };
+        let is_an_effect = instances.par_iter().any(does_as_well);
+        Ok(Some((reading.otherwise(explained), is_an_effect)))
+    }
+
+    /// The simplest reading of those that do best, if they do much better, with the scene as it is then, and
+    /// whether the model's fit is lost even so.
+    fn found(scene: &Scene, fitted: &Fitted) -> Option<(Misread, Scene, bool)> {
         let up = seen_up(scene).map(|up| [up.x, up.y, up.z]);
         let falls = Misread { up, fps: seen_fps(scene), orientations: None };
         if !(fitted.is_lost() || falls.is_other()) {
@@ -103,9 +134,7 @@ impl Misread {
         let least = good.iter().map(|(share, ..)| *share).fold(f64::INFINITY, f64::min);
         let (_, reading, scene, is_lost) =
             good.into_iter().find(|(share, ..)| *share < AS_GOOD * least)?;
-        let explained = explained(&scene).ok()?;
-        // Lost in one way, a fit may be less lost in another.
-        (!is_lost || !explained.leaves_more).then(|| reading.otherwise(explained))
+        Some((reading, scene, is_lost))
     }
 
     /// Whether anything is read otherwise.

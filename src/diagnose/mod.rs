@@ -109,11 +109,9 @@ pub fn diagnose(
         })
     };
     let fitted = refined::fit(scene, options)?;
-    match Misread::told(scene, &fitted, explained) {
-        Some(misread) if is_explained(scene, &fitted, further)? => {
-            diagnosed(scene, &fitted, further, |_, _| Some(misread))
-        }
-        Some(misread) => verdict::of_misread(scene, &fitted, misread),
+    match Misread::told(scene, &fitted, further, explained)? {
+        Some((misread, true)) => diagnosed(scene, &fitted, further, |_, _| Some(misread)),
+        Some((misread, false)) => verdict::of_misread(scene, &fitted, misread),
         None => diagnosed(scene, &fitted, further, |fitted, is_structured| {
             Otherwise::of(scene, fitted, is_structured, explained)
         }),
@@ -130,20 +128,6 @@ fn diagnosed(
     let instances = all_candidates(scene, fitted, further)?;
     let tried = tried(scene, fitted, &instances);
     verdict::diagnosis(scene, fitted, instances, tried, otherwise)
-}
-
-/// Whether an effect leaves nothing but noise, as far as is seen at once.
-pub(crate) fn is_explained(
-    scene: &Scene,
-    fitted: &Fitted,
-    further: &[EffectRequest],
-) -> Result<bool> {
-    let instances = all_candidates(scene, fitted, further)?;
-    let leaves_nothing = |instance: &Instance| {
-        let with = fitted.with_at_once(scene, instance);
-        with.is_ok_and(|with| !Goodness::by(&with, &[]).is_structured)
-    };
-    Ok(instances.par_iter().any(leaves_nothing))
 }
 
 /// What was tried on top of a model.

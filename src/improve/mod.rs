@@ -9,9 +9,7 @@ mod words;
 pub use ladder::{EffectEstimate, IMPROVEMENT_SCHEMA, Improvement, Rung};
 pub use throws::improve_throws;
 
-use crate::diagnose::{
-    Explained, Misread, Otherwise, Verdict, held_out_rmse_m, is_explained, reported,
-};
+use crate::diagnose::{Explained, Misread, Otherwise, Verdict, held_out_rmse_m, reported};
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
 use crate::reconstruct::refined::{self, Fitted};
@@ -44,12 +42,12 @@ pub fn improve(
         let missing = found.steps.iter().map(|step| step.instance.label(scene)).collect();
         Ok(Explained { missing, fitted: found.fitted, leaves_more: found.is_structured })
     };
-    let misread = Misread::told(scene, &base, asked_again);
-    if misread.is_some() && !is_explained(scene, &base, further)? {
+    let misread = Misread::told(scene, &base, further, asked_again)?;
+    if let Some((misread, false)) = misread {
         let result = reported(scene, &base)?;
         let ladder = vec![rung(&base, &result)];
         let improvement = Improvement::new(scene, ladder, result);
-        return Ok(Improvement { otherwise: misread, ..improvement }.told());
+        return Ok(Improvement { otherwise: Some(misread), ..improvement }.told());
     }
     let found = search::best_model(scene, &base, further)?;
     let mut fits = vec![base];
@@ -81,7 +79,7 @@ pub fn improve(
         (false, false) => Verdict::Missing,
     };
     let otherwise = match found.other_laws.first() {
-        _ if misread.is_some() => misread,
+        _ if misread.is_some() => misread.map(|(misread, _)| misread),
         // Poses that a law explains to their noise need no other explanation.
         Some(law) if found.steps.is_empty() && !law.leaves_more => None,
         _ => Otherwise::of(scene, &fits[fits.len() - 1], found.is_structured, asked_again),

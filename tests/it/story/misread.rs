@@ -72,6 +72,27 @@ fn another_reading_that_explains_the_poses_is_told_before_any_effect() {
     }
 }
 
+/// At twice the frame rate all falls as on a planet of four times the gravity.
+#[test]
+fn an_effect_that_explains_as_much_keeps_its_name() {
+    let boxes = format!("{}/scenes/boxes.json", env!("CARGO_MANIFEST_DIR"));
+    let mut file = Scene::read(boxes).unwrap().to_file();
+    let fps = file.fps.unwrap();
+    let poses = file.bodies.iter_mut().flat_map(|body| body.observations.iter_mut().flatten());
+    poses.for_each(|pose| pose.time = pose.time.map(|time_s| 0.5 * time_s));
+    file.fps = Some(2.0 * fps);
+    let scene = Scene::from_file(file).unwrap();
+    let base = RefinedOptions::default();
+    let diagnosis = smash::diagnose(&scene, &base, &[]).unwrap();
+    let told = &diagnosis.explanation;
+    assert_eq!(diagnosis.missing().unwrap().label(), "gravity_scale", "{told}");
+    let cause = Cause::Misread(Misread { fps: Some(fps), ..AS_STATED });
+    assert_eq!(diagnosis.otherwise.unwrap().cause, cause, "{told}");
+    let improvement = smash::improve(&scene, &base, &[]).unwrap();
+    assert_eq!(last(&improvement).with, ["gravity_scale"]);
+    assert_eq!(improvement.otherwise.unwrap().cause, cause);
+}
+
 #[test]
 fn what_is_missing_beside_it_is_told_too() {
     let drag = effect("quadratic_drag", Some("b"), &[("k", &[0.1])]);

@@ -1,5 +1,6 @@
 //! What can't be asked for, and laws that go wrong: a clear message each time, never a panic.
 
+use rayon::prelude::*;
 use smash::effect::EffectRequest;
 use smash::{ErrorKind, Scene};
 
@@ -127,44 +128,35 @@ fn an_event_outside_the_poses_does_nothing() {
 /// Values at the ends of what may be given.
 #[test]
 fn extreme_given_values_end_in_numbers_or_words() {
-    for (name, effects) in [
-        (
-            "boxes",
-            &[
-                "linear_drag@a:k=1000",
-                "quadratic_drag:k=10",
-                "magnus:k=1",
-                "constant_force@a:a=[100,100,100]",
-                "gravity_scale:s=5",
-                "gravity_tilt:tilt1=0.8,tilt2=-0.8",
-                "spin_drag:kappa=100",
-                "inertia:factor=[0.05,20,1]",
-                "com_offset@a:offset=[1,1,1]",
-                "external_impulse@a:P=[1000,0,0]",
-                "torsional_impulse:M=100",
-                "second_impact@a:time=0.3,impulse=[1000,0,0]",
-                "outlier@a:time=0.2,turn=[3.2,0,0]",
-                "time_offset@a:delay=0.5",
-                "depth_scale@a:s=2",
-            ][..],
-        ),
-        ("box_on_floor", &["friction:mu=5", "linear_drag:k=1000", "spin_drag:kappa=100"]),
-    ] {
-        let scene = scene(name);
-        for effect in effects {
-            match with(&scene, &[effect]) {
-                Ok(result) => assert!(result.fit.cost.is_finite(), "{effect}"),
-                Err(error) => {
-                    let message = error.to_string();
-                    assert!(error.hint().is_some(), "{effect}: {message}");
-                    assert!(
-                        message.contains(effect.split([':', '@']).next().unwrap()),
-                        "{message}"
-                    );
-                }
-            }
+    let [boxes, floor] = ["boxes", "box_on_floor"].map(scene);
+    let in_the_air = [
+        "linear_drag@a:k=1000",
+        "quadratic_drag:k=10",
+        "magnus:k=1",
+        "constant_force@a:a=[100,100,100]",
+        "gravity_scale:s=5",
+        "gravity_tilt:tilt1=0.8,tilt2=-0.8",
+        "spin_drag:kappa=100",
+        "inertia:factor=[0.05,20,1]",
+        "com_offset@a:offset=[1,1,1]",
+        "external_impulse@a:P=[1000,0,0]",
+        "torsional_impulse:M=100",
+        "second_impact@a:time=0.3,impulse=[1000,0,0]",
+        "outlier@a:time=0.2,turn=[3.2,0,0]",
+        "time_offset@a:delay=0.5",
+        "depth_scale@a:s=2",
+    ];
+    let on_the_floor = ["friction:mu=5", "linear_drag:k=1000", "spin_drag:kappa=100"];
+    let all = in_the_air.map(|effect| (&boxes, effect)).into_iter();
+    let all: Vec<_> = all.chain(on_the_floor.map(|effect| (&floor, effect))).collect();
+    all.into_par_iter().for_each(|(scene, effect)| match with(scene, &[effect]) {
+        Ok(result) => assert!(result.fit.cost.is_finite(), "{effect}"),
+        Err(error) => {
+            let message = error.to_string();
+            assert!(error.hint().is_some(), "{effect}: {message}");
+            assert!(message.contains(effect.split([':', '@']).next().unwrap()), "{message}");
         }
-    }
+    });
 }
 
 #[test]
