@@ -1,4 +1,4 @@
-//! Lengths that look like another unit, or another direction of up, than the file says.
+//! Lengths that look like another unit, another direction of up, or another frame rate, than the file says.
 
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 
@@ -28,7 +28,8 @@ const FRAME_RATES: [f64; 25] = [
     12.0, 15.0, 18.0, 24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 72.0, 90.0, 96.0, 100.0, 120.0, 144.0,
     150.0, 180.0, 200.0, 240.0, 250.0, 300.0, 480.0, 500.0, 960.0, 1000.0,
 ];
-/// A fall so many times as fast, or as slow, as gravity's is none in another wind or on another scale.
+/// A frame rate is doubted only where the fall is so many times gravity, or less by as much: nearer to it,
+/// an effect may be what is missing.
 const LEAST_FACTOR: f64 = 1.5;
 /// Gaps that are tried for the collision; more would tell no more.
 const MOST_SPLITS: usize = 64;
