@@ -19,8 +19,11 @@ constexpr double kShortestStep = 0.15;
 // Of an effect's flight, whose position needs steps too: with these the integrator's error is some
 // 1e-7 rad and less.
 constexpr double kEffectStepS = 0.02;
-// Of one flight with effects: what takes more is a spin on its way beyond all numbers.
 constexpr double kMostEffectSteps = 2e4;
+// Twelve turns a second, and two between poses: what turns faster, twice as fast as any start, is a
+// spin on its way beyond all numbers.
+constexpr double kFastestRadPerS = 75.0;
+constexpr double kMostRadBetweenPoses = 12.5;
 // How much faster than at the start a body may turn with the start's steps.
 constexpr double kMuchFaster = 1.0 / 0.7;
 
@@ -75,7 +78,10 @@ std::vector<int> FlightSteps::WithEffects(const Flight& flight, int fineness) co
   const double fastest = fastest_[flight.body][flight.is_after];
   const double step_s = std::min(step_rad_ / fastest, kEffectStepS) / fineness;
   double reached_s = StartOf(flight);
-  if (!(std::abs(flight.poses.back().time_s - reached_s) / step_s < kMostEffectSteps)) {
+  const double span_s = std::abs(flight.poses.back().time_s - reached_s);
+  const double most_rad =
+      kFastestRadPerS * span_s + kMostRadBetweenPoses * static_cast<double>(flight.poses.size());
+  if (!(span_s / step_s < kMostEffectSteps && fastest * span_s < most_rad)) {
     throw std::runtime_error("a flight is too long, or turns too fast, to be followed");
   }
   std::vector<int> steps;

@@ -49,6 +49,13 @@ pub(crate) struct Rival {
     pub(super) fitted: Fitted,
 }
 
+impl OtherLaw {
+    /// Whether it is told beside an impulse that may have lasted.
+    pub(super) fn is_a_push(&self) -> bool {
+        self.goes_with.contains(PUSHES)
+    }
+}
+
 impl Rival {
     /// `with`, which has one law more than `without`, one of `tried`.
     fn new(
@@ -119,50 +126,64 @@ impl Rival {
     }
 }
 
-/// A push that lasts for a tenth of a second, where `candidate`, which extends `fitted`,
-/// is an impact at a time of its own, and the poses can't tell the two apart. `tried`: how many candidates there are beside it.
+/// A push that lasts for a tenth of a second, where `candidate`, which extends `fitted`, is an impulse from
+/// outside, and the poses can't tell the two apart. `tried`: how many candidates there are beside it.
 pub(super) fn lasting_push(fitted: &Fitted, candidate: &Candidate, tried: usize) -> Option<Rival> {
     /// Two bodies hardly touch for half of it.
     const LASTING_S: f64 = 0.1;
-    let acting = candidate.fitted.acting.last()?;
-    // Its numbers are a time, an impulse and a spin, in this order.
-    if acting.instance.effect.name != "second_impact" {
-        return None;
-    }
-    let body = acting.instance.body?;
     let unknowns = &candidate.fitted.best().solution.unknowns;
-    let time_s = unknowns.parameters[acting.first];
+    let acting = candidate.fitted.acting.last()?;
+    let numbers = &unknowns.parameters[acting.first..acting.first + acting.count];
+    let body = acting.instance.body?;
+    // When, and by how much velocity and spin jump.
+    let (time_s, jump, laws) = match acting.instance.effect.name.as_str() {
+        "second_impact" => (numbers[0], numbers[1..].to_vec(), PUSH.as_slice()),
+        "external_impulse" => {
+            let mass = if body == 0 { 1.0 } else { unknowns.log_mass_ratio.exp() };
+            let velocity = numbers.iter().map(|impulse| impulse / mass).collect();
+            (unknowns.collision_time_s, velocity, &PUSH[..1])
+        }
+        _ => return None,
+    };
     let [from_s, to_s] = [time_s - 0.5 * LASTING_S, time_s + 0.5 * LASTING_S];
-    let mut instance = Instance { effect: push(), body: Some(body), fixed: BTreeMap::new() };
+    let rate = 1.0 / (to_s - from_s);
+    let mut instance = Instance { effect: push(laws), body: Some(body), fixed: BTreeMap::new() };
     instance.fixed.insert("from".to_string(), vec![from_s]);
-    instance.fixed.insert("rate".to_string(), vec![1.0 / (to_s - from_s)]);
-    // The impact's own numbers, spread over that time.
-    let number = |place: usize| unknowns.parameters[acting.first + place];
-    let spread = (1..acting.count).map(|place| number(place) / (to_s - from_s));
-    let values: Vec<f64> = [from_s, 1.0 / (to_s - from_s)].into_iter().chain(spread).collect();
+    instance.fixed.insert("rate".to_string(), vec![rate]);
+    let spread = jump.iter().map(|jump| jump * rate);
+    let values: Vec<f64> = [from_s, rate].into_iter().chain(spread).collect();
     let with = fitted.with_from(&instance, &candidate.fitted, &values).ok()?;
-    let goes_with = format!("time: a push that lasts, from {from_s:.3} s to {to_s:.3} s");
-    let law = PUSH.map(|(hook, law)| format!("{hook} = \"{law}\"")).join(" and ");
-    let push = Rival::new(goes_with, law, (fitted, with), tried + 1)?;
+    let goes_with = format!("time: {PUSHES}, from {from_s:.3} s to {to_s:.3} s");
+    let lines: Vec<String> =
+        laws.iter().map(|(hook, law, _)| format!("{hook} = \"{law}\"")).collect();
+    let push = Rival::new(goes_with, lines.join(" and "), (fitted, with), tried + 1)?;
     (push.bic < candidate.bic + TELLS_APART).then_some(push)
 }
 
-/// The laws of a push that lasts, by their hooks: it rises and falls evenly, since no flight can be
+const PUSHES: &str = "a push that lasts";
+
+/// The laws of a push that lasts, with their parameters: it rises and falls evenly, since no flight can be
 /// followed over a jump.
-const PUSH: [(&str, &str); 2] = [
+const PUSH: [(&str, &str, (&str, &str)); 2] = [
     (
         "acceleration",
         "step(t - from) * step(1 - rate * (t - from)) * (1 - cos(6.2832 * rate * (t - from))) * a",
+        ("a", "m/s^2"),
     ),
     (
         "torque",
         "step(t - from) * step(1 - rate * (t - from)) * (1 - cos(6.2832 * rate * (t - from))) * b",
+        ("b", "m^2/s^2"),
     ),
 ];
 
-fn push() -> Effect {
-    let own = [("from", "s", 1), ("rate", "1/s", 1), ("a", "m/s^2", 3), ("b", "m^2/s^2", 3)];
-    law_of(&PUSH, &own.map(|(name, unit, count)| (name.to_string(), unit.to_string(), count)))
+fn push(laws: &[(&str, &str, (&str, &str))]) -> Effect {
+    let when = [("from", "s", 1), ("rate", "1/s", 1)].into_iter();
+    let own = when.chain(laws.iter().map(|(_, _, (name, unit))| (*name, *unit, 3)));
+    let own: Vec<_> =
+        own.map(|(name, unit, count)| (name.to_string(), unit.to_string(), count)).collect();
+    let lines: Vec<(&str, &str)> = laws.iter().map(|(hook, law, _)| (*hook, *law)).collect();
+    law_of(&lines, &own)
 }
 
 /// The laws that explain `scene` significantly better than its model, the best first. `tried`: how

@@ -104,6 +104,13 @@ impl OtherLaw {
 
 /// What is as good as what is named.
 fn or_another(law: &OtherLaw) -> String {
+    if law.is_a_push() {
+        return format!(
+            " It need not be a blow: these poses can't tell it from {}, as of a hand or a string. More \
+             frames a second about then would.",
+            law.goes_with.trim_start_matches("time: ")
+        );
+    }
     format!(
         " These poses can't tell it from a law that the catalogue hasn't got: {}.",
         law.in_words()

@@ -70,10 +70,16 @@ impl Fitted {
             self.with_phase(scene, fitted, started)
         });
         found.map_err(|error| {
-            error.at(instance.label(scene)).mend(
-                "hold some of its parameters at known values (`:NAME=VALUE`), or leave it out; an \
-                 effect of your own may grow beyond all numbers along the flight",
-            )
+            error.at(instance.label(scene)).mend(match instance.fixed.is_empty() {
+                true => {
+                    "hold some of its parameters at known values (`:NAME=VALUE`), or leave it out; an \
+                     effect of your own may grow beyond all numbers along the flight"
+                }
+                false => {
+                    "with the values given no motion was found that leads to these poses: check their size and unit, \
+                     or leave them out to have them found"
+                }
+            })
         })
     }
 

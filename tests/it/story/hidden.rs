@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use smash::SchemaKind;
-use smash::diagnose::Verdict;
+use smash::diagnose::{OtherLaw, Verdict};
 use smash::reconstruct::RefinedOptions;
 use smash::simulate::{EffectSpec, SimulationSpec};
 
@@ -179,19 +179,32 @@ fn the_scale_of_gravity_of_a_lone_body() {
 /// A push that lasts a tenth of a second does as well where it is weak; a strong one's bend would show.
 #[test]
 fn an_impact_or_a_push_that_lasts() {
-    let told = |size: f64| {
-        let mut spec = boxes(1);
-        spec.observations =
-            Sampling::Regular(RegularSampling { interval: 1, frame_count: 90, gap: None });
-        let impulse = [size, size, -0.5 * size];
-        let spin = [0.0, 0.01 * size, 0.0];
-        let numbers: [(&str, &[f64]); 3] =
-            [("time", &[1.133]), ("impulse", &impulse), ("spin", &spin)];
-        let scene = with(spec, &[effect("second_impact", Some("a"), &numbers)]).scene;
-        let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
-        let first = diagnosis.candidates[0].label();
-        assert_eq!(first, "second_impact@a", "{}", diagnosis.explanation);
-        diagnosis.other_laws.iter().any(|law| law.goes_with.contains("a push that lasts"))
+    assert!(told_beside_a_push("second_impact", 0.1) && !told_beside_a_push("second_impact", 0.8));
+}
+
+/// The same at the collision: a cord that goes taut pulls for a while.
+#[test]
+fn an_impulse_from_outside_or_a_push_that_lasts() {
+    let name = "external_impulse";
+    assert!(told_beside_a_push(name, 0.1) && !told_beside_a_push(name, 1.6));
+}
+
+fn told_beside_a_push(name: &str, size: f64) -> bool {
+    let mut spec = boxes(1);
+    spec.observations =
+        Sampling::Regular(RegularSampling { interval: 1, frame_count: 90, gap: None });
+    let impulse = [size, size, -0.5 * size];
+    let spin = [0.0, 0.01 * size, 0.0];
+    let numbers: &[(&str, &[f64])] = match name {
+        "second_impact" => &[("time", &[1.133]), ("impulse", &impulse), ("spin", &spin)],
+        _ => &[("P", &impulse)],
     };
-    assert!(told(0.1) && !told(0.8));
+    let scene = with(spec, &[effect(name, Some("a"), numbers)]).scene;
+    let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
+    let first = diagnosis.candidates[0].label();
+    assert_eq!(first, format!("{name}@a"), "{}", diagnosis.explanation);
+    let is_told = diagnosis.explanation.contains("a push that lasts");
+    let is_beside = |law: &OtherLaw| law.goes_with.contains("a push that lasts");
+    assert_eq!(is_told, diagnosis.other_laws.iter().any(is_beside));
+    is_told
 }
