@@ -81,7 +81,9 @@ std::vector<int> FlightSteps::WithEffects(const Flight& flight, int fineness) co
   const double span_s = std::abs(flight.poses.back().time_s - reached_s);
   const double most_rad =
       kFastestRadPerS * span_s + kMostRadBetweenPoses * static_cast<double>(flight.poses.size());
-  if (!(span_s / step_s < kMostEffectSteps && fastest * span_s < most_rad)) {
+  // To look at it once is cheap.
+  const bool is_searched = problem_.most_iterations > 0;
+  if (!(span_s / step_s < kMostEffectSteps) || (is_searched && fastest * span_s > most_rad)) {
     throw std::runtime_error("a flight is too long, or turns too fast, to be followed");
   }
   std::vector<int> steps;

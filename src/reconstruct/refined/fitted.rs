@@ -141,13 +141,12 @@ impl Fitted {
     fn extended(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
         let mut refined = self.refined.clone();
         let acting = instance.act_on(&mut refined);
-        let starts = starts(self, scene, &refined, &acting)?;
-        let optima = match instance.is_held_at_null() {
-            true => vec![nested_optimum(&refined, &starts[0].0, self.best())?],
-            false => match self.optima_with(instance, &refined, &starts) {
-                Err(_) if !instance.fixed.is_empty() => approached(&refined, &acting, &starts[0])?,
-                optima => optima?,
-            },
+        let optima = match self.optima_with(scene, &refined, &acting) {
+            // From where it is a lost model may lead beyond all numbers, but not from elsewhere.
+            Err(error) => Some(self.optima_found_again(scene, &refined, &acting))
+                .filter(|optima| !optima.is_empty())
+                .ok_or(error)?,
+            optima => optima?,
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
         fitted.acting.push(acting);
@@ -156,19 +155,31 @@ impl Fitted {
 
     /// `fitted`, which extends this, or where it has lost its way what else is found.
     fn again(&self, scene: &Scene, mut fitted: Fitted) -> Fitted {
-        // A second effect is added to what the first one has found.
-        let ([acting], true) = (fitted.acting.as_slice(), self.is_lost() && fitted.is_lost())
-        else {
-            return fitted;
-        };
-        // Given values may be what the poses contradict: nothing leads from there.
-        if acting.instance.fixed.is_empty() && acting.instance.is_in_flight() {
-            let start = found_again(self, scene, &fitted.refined, acting).ok().flatten();
-            let starts: Vec<Start> = start.into_iter().collect();
-            fitted.optima.extend(optima_from(&fitted.refined, &starts).unwrap_or_default());
+        if let (Some(acting), true) = (fitted.acting.last(), fitted.is_lost()) {
+            let found = self.optima_found_again(scene, &fitted.refined, acting);
+            fitted.optima.extend(found);
             sort(&mut fitted.optima);
         }
         fitted
+    }
+
+    /// What is found with `acting` from flights alone, where this has lost its way.
+    fn optima_found_again(
+        &self,
+        scene: &Scene,
+        refined: &RefinedScene,
+        acting: &Acting,
+    ) -> Vec<Optimum> {
+        // A second effect is added to what the first one has found; given values may be what the poses
+        // contradict: nothing leads from there.
+        let instance = &acting.instance;
+        let may_be = self.is_lost() && self.acting.is_empty();
+        if !(may_be && instance.fixed.is_empty() && instance.is_in_flight()) {
+            return Vec::new();
+        }
+        let start = found_again(self, scene, refined, acting).ok().flatten();
+        let starts: Vec<Start> = start.into_iter().collect();
+        optima_from(refined, &starts).unwrap_or_default()
     }
 
     /// `fitted`, which extends this, with what that took as a phase.
@@ -186,17 +197,26 @@ impl Fitted {
         Ok(fitted)
     }
 
-    /// What `starts` lead to, and, where the effect does nothing at the first, this fit itself.
+    /// What this leads to with `acting`, which `refined` holds already, and, where the effect does nothing at
+    /// the first start, this fit itself.
     fn optima_with(
         &self,
-        instance: &Instance,
+        scene: &Scene,
         refined: &RefinedScene,
-        starts: &[Start],
+        acting: &Acting,
     ) -> Result<Vec<Optimum>> {
-        let mut optima = optima_from(refined, starts)?;
-        let rises = optima[0].solution.cost > self.best().solution.cost;
-        if rises && instance.fixed.is_empty() {
-            optima.insert(0, nested_optimum(refined, &starts[0].0, self.best())?);
+        let starts = starts(self, scene, refined, acting)?;
+        let nested = || nested_optimum(refined, &starts[0].0, self.best());
+        if acting.instance.is_held_at_null() {
+            return Ok(vec![nested()?]);
+        }
+        let is_free = acting.instance.fixed.is_empty();
+        let mut optima = match optima_from(refined, &starts) {
+            Err(_) if !is_free => return approached(refined, acting, &starts[0]),
+            optima => optima?,
+        };
+        if is_free && optima[0].solution.cost > self.best().solution.cost {
+            optima.insert(0, nested()?);
         }
         Ok(optima)
     }

@@ -5,12 +5,13 @@
 use nalgebra::Vector3;
 
 use super::acting::{Acting, possible};
+use super::bends::Bends;
 use super::fitted::Fitted;
 use super::freed::{free_jump, leaving, same_jump};
 use super::optimum::{Optimum, gaps, nearest, optima_from};
-use super::parabolas::Parabolas;
+use super::parabolas::Paths;
 use super::start::{Leaving, freed_candidates};
-use super::starts::{Start, away, extended, is_flat};
+use super::starts::{Start, away, is_flat};
 use crate::bridge::refined::ffi::{RefinedPose, RefinedScene, RefinedUnknowns, launch};
 use crate::reconstruct::solver_error;
 use crate::{Result, Scene};
@@ -33,16 +34,10 @@ pub(super) fn found_again(
     let mut free = refined.clone();
     let jumps = possible(scene, &free_jump(scene)?);
     let jumps: Vec<Acting> = jumps.iter().map(|jump| jump.act_on(&mut free)).collect();
-    let null = extended(&nested.best().solution.unknowns, &acting.instance.null());
-    // A spring's anchor is nothing to a spring without stiffness: it starts with some, too.
-    let sizes = match is_flat(refined, acting, &null, nested.best().gap)? {
-        true => vec![0.0, 1.0],
-        false => vec![0.0],
-    };
-    let parabolas = Parabolas::new(scene);
-    let mut starts: Vec<Start> = Vec::new();
-    for segment in parabolas.best_segments(MOST_SEGMENTS) {
-        let candidates = freed_candidates(&nested.refined, &parabolas, &segment)?;
+    let paths = Bends::new(scene);
+    let mut bare: Vec<(Start, Vec<Leaving>)> = Vec::new();
+    for segment in paths.best_segments(MOST_SEGMENTS) {
+        let candidates = freed_candidates(&nested.refined, &paths, &segment)?;
         for (candidate, wanted) in candidates.into_iter().take(MOST_TURNS) {
             let mut start = candidate.unknowns;
             let known = &nested.best().solution.unknowns.parameters;
@@ -51,11 +46,22 @@ pub(super) fn found_again(
                 start.parameters.extend(jump.instance.null());
             }
             unbend(&mut start, &wanted);
-            for size in &sizes {
-                let mut start = away(refined, acting, &start, *size);
-                jump_to(&free, &jumps, &mut start, &wanted)?;
-                starts.push((start, candidate.gap));
-            }
+            bare.push(((start, candidate.gap), wanted));
+        }
+    }
+    let Some(((mut first, gap), _)) = bare.first().cloned() else { return Ok(None) };
+    first.parameters.truncate(refined.parameters.len());
+    // A spring's anchor is nothing to a spring without stiffness: it starts with some, too.
+    let sizes: &[f64] = match is_flat(refined, acting, &first, gap)? {
+        true => &[0.0, 1.0],
+        false => &[0.0],
+    };
+    let mut starts: Vec<Start> = Vec::new();
+    for ((start, gap), wanted) in &bare {
+        for size in sizes {
+            let mut start = away(refined, acting, start, *size);
+            jump_to(&free, &jumps, &mut start, wanted)?;
+            starts.push((start, *gap));
         }
     }
     // Positions are off by metres at first, and would drag the spins after them.

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use super::acting::{Acting, possible};
 use super::fitted::Fitted;
 use super::layout::Layout;
-use super::parabolas::Parabolas;
+use super::parabolas::{Parabolas, Paths};
 use super::start::{Leaving, freed_candidates};
 use super::starts::{Start, away, touch};
 use crate::bridge::refined::ffi::{RefinedLaunch, RefinedScene, RefinedUnknowns, launch};

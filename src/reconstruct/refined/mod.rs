@@ -11,6 +11,7 @@ pub(crate) mod acting;
 mod along_bounds;
 mod alternatives;
 mod approach;
+mod bends;
 mod covariance;
 mod fitted;
 mod flown;

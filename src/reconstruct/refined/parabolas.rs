@@ -57,49 +57,28 @@ struct Sum {
     yy: f64,
 }
 
-/// A line fitted to one side.
-struct Line {
-    position: Vector3<f64>,
-    velocity: Vector3<f64>,
-    /// Of position and velocity at the time asked for, per unit variance.
-    covariance: Matrix2<f64>,
-    squares: f64,
+/// What one side's positions tell of a time.
+pub(super) struct Line {
+    pub(super) position: Vector3<f64>,
+    pub(super) velocity: Vector3<f64>,
+    /// Of position and velocity, per unit variance.
+    pub(super) covariance: Matrix2<f64>,
+    /// What the side's fit misses, m².
+    pub(super) squares: f64,
 }
 
-impl Parabolas {
-    pub(super) fn new(scene: &Scene) -> Self {
-        let gaps = scene.gaps();
-        let origin_s = 0.5 * (gaps[0].start_s + gaps[gaps.len() - 1].end_s);
-        let gravity = -scene.gravity_m_s2() * scene.up_in_world().into_inner();
-        let splits = scene
-            .bodies()
-            .iter()
-            .map(|body| {
-                let before = |gap: &Gap| {
-                    body.observations.partition_point(|seen| seen.time_s < gap.midpoint_s())
-                };
-                gaps.iter().map(before).collect()
-            })
-            .collect();
-        let bodies = scene.bodies().iter().map(|body| Sums::new(body, origin_s, gravity)).collect();
-        Parabolas { bodies, origin_s, gaps, splits }
-    }
-
+/// Each body's path on either side of a collision.
+pub(super) trait Paths {
     /// All segments, in order of time.
-    pub(super) fn gaps(&self) -> &[Gap] {
-        &self.gaps
-    }
+    fn gaps(&self) -> &[Gap];
 
-    /// Measured numbers minus unknowns (position, two velocities, t_c) of the fit in a segment.
-    pub(super) fn spare(&self) -> usize {
-        let measured: usize = self.bodies.iter().map(|body| 3 * body.times_s.len()).sum();
-        measured.saturating_sub(9 * self.bodies.len() + 1)
-    }
+    /// Each body's path before and after gap number `index`, at `time_s`.
+    fn lines(&self, index: usize, time_s: f64) -> Vec<[Line; 2]>;
 
     /// The `count` best segments, best first.
-    pub(super) fn best_segments(&self, count: usize) -> Vec<Segment> {
+    fn best_segments(&self, count: usize) -> Vec<Segment> {
         let mut coarse: Vec<(f64, usize)> =
-            (0..self.gaps.len()).map(|index| (self.coarse_cost(index), index)).collect();
+            (0..self.gaps().len()).map(|index| (self.coarse_cost(index), index)).collect();
         coarse.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The coarse cost of the right segment can be above its neighbours'.
         coarse.truncate(2 * count + 2);
@@ -111,55 +90,77 @@ impl Parabolas {
     }
 
     /// Each body's kink at the segment's collision time.
-    pub(super) fn kinks(&self, segment: &Segment) -> Vec<Kink> {
-        let index = self.gaps.iter().position(|gap| *gap == segment.gap).unwrap_or(0);
-        let t = segment.collision_time_s - self.origin_s;
-        self.bodies
-            .iter()
-            .zip(&self.splits)
-            .map(|(body, splits)| {
-                let [before, after] = body.lines(splits[index], t);
-                kink(&before, &after)
-            })
-            .collect()
+    fn kinks(&self, segment: &Segment) -> Vec<Kink> {
+        let index = self.gaps().iter().position(|gap| *gap == segment.gap).unwrap_or(0);
+        let lines = self.lines(index, segment.collision_time_s);
+        lines.iter().map(|[before, after]| kink(before, after)).collect()
     }
 
-    fn cost(&self, index: usize, t: f64) -> f64 {
-        let of_body = |(body, splits): (&Sums, &Vec<usize>)| {
-            let [before, after] = body.lines(splits[index], t);
+    /// The sum of squares with the collision at `time_s` in gap number `index`.
+    fn cost(&self, index: usize, time_s: f64) -> f64 {
+        let of_body = |[before, after]: &[Line; 2]| {
             let variance = before.covariance[(0, 0)] + after.covariance[(0, 0)];
             let gap = after.position - before.position;
             before.squares + after.squares + gap.norm_squared() / variance
         };
-        self.bodies.iter().zip(&self.splits).map(of_body).sum()
+        self.lines(index, time_s).iter().map(of_body).sum()
     }
 
-    fn times(&self, index: usize) -> (f64, f64) {
-        let gap = &self.gaps[index];
-        (gap.start_s - self.origin_s, gap.end_s - self.origin_s)
-    }
-
+    /// The least of a few times'.
     fn coarse_cost(&self, index: usize) -> f64 {
-        let (start, end) = self.times(index);
+        let Gap { start_s, end_s } = self.gaps()[index];
         (0..5)
-            .map(|i| self.cost(index, start + (end - start) * f64::from(i) / 4.0))
+            .map(|i| self.cost(index, start_s + (end_s - start_s) * f64::from(i) / 4.0))
             .fold(f64::INFINITY, f64::min)
     }
 
+    /// The best time in gap number `index`.
     fn refine(&self, index: usize) -> Segment {
-        let (start, end) = self.times(index);
-        let time = |i: usize| start + (end - start) * i as f64 / COARSE as f64;
+        let gap = self.gaps()[index];
+        let time_s = |i: usize| gap.start_s + (gap.end_s - gap.start_s) * i as f64 / COARSE as f64;
         let best = (0..=COARSE)
-            .min_by(|a, b| self.cost(index, time(*a)).total_cmp(&self.cost(index, time(*b))))
+            .min_by(|a, b| self.cost(index, time_s(*a)).total_cmp(&self.cost(index, time_s(*b))))
             .unwrap_or(0);
-        let (low, high) = (time(best.saturating_sub(1)), time((best + 1).min(COARSE)));
-        let t = golden_section(low, high, |t| self.cost(index, t));
-        Segment {
-            gap: self.gaps[index],
-            collision_time_s: self.origin_s + t,
-            squares_m2: self.cost(index, t),
-        }
+        let (low, high) = (time_s(best.saturating_sub(1)), time_s((best + 1).min(COARSE)));
+        let collision_time_s = golden_section(low, high, |time_s| self.cost(index, time_s));
+        Segment { gap, collision_time_s, squares_m2: self.cost(index, collision_time_s) }
     }
+}
+
+impl Parabolas {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let gaps = scene.gaps();
+        let origin_s = 0.5 * (gaps[0].start_s + gaps[gaps.len() - 1].end_s);
+        let gravity = -scene.gravity_m_s2() * scene.up_in_world().into_inner();
+        let splits = scene.bodies().iter().map(|body| splits(body, &gaps)).collect();
+        let bodies = scene.bodies().iter().map(|body| Sums::new(body, origin_s, gravity)).collect();
+        Parabolas { bodies, origin_s, gaps, splits }
+    }
+
+    /// Measured numbers minus unknowns (position, two velocities, t_c) of the fit in a segment.
+    pub(super) fn spare(&self) -> usize {
+        let measured: usize = self.bodies.iter().map(|body| 3 * body.times_s.len()).sum();
+        measured.saturating_sub(9 * self.bodies.len() + 1)
+    }
+}
+
+impl Paths for Parabolas {
+    fn gaps(&self) -> &[Gap] {
+        &self.gaps
+    }
+
+    fn lines(&self, index: usize, time_s: f64) -> Vec<[Line; 2]> {
+        let t = time_s - self.origin_s;
+        let bodies = self.bodies.iter().zip(&self.splits);
+        bodies.map(|(body, splits)| body.lines(splits[index], t)).collect()
+    }
+}
+
+/// How many of the body's poses are before each gap.
+pub(super) fn splits(body: &DynamicBody, gaps: &[Gap]) -> Vec<usize> {
+    let before =
+        |gap: &Gap| body.observations.partition_point(|seen| seen.time_s < gap.midpoint_s());
+    gaps.iter().map(before).collect()
 }
 
 /// Times tried in a segment before its best is refined: the cost of two bodies can have two minima.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::model::set_noise;
 use super::noise::{KnownNoise, SETTLED, first_guess, positions, settle_noise, turns};
 use super::optimum::{Optimum, optima_from};
-use super::parabolas::{Parabolas, Segment};
+use super::parabolas::{Parabolas, Paths, Segment};
 use super::robust::{residual_cost, settle_robustly};
 use super::spins::{Search, may_turn_otherwise};
 use super::start::{Candidate, candidates};

@@ -4,7 +4,7 @@
 use super::acting::Acting;
 use super::fitted::Fitted;
 use super::model::refined_scene;
-use super::parabolas::Parabolas;
+use super::parabolas::{Parabolas, Paths};
 use super::solve::solve;
 use super::starts::{MOST_POINTS, Start, points};
 use crate::Scene;

@@ -4,7 +4,7 @@
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 use super::model::{any_spin, has_plane};
-use super::parabolas::{Kink, Parabolas, Segment};
+use super::parabolas::{Kink, Paths, Segment};
 use super::spins::{Search, Spin, spins};
 use crate::Result;
 use crate::bridge::refined::ffi::{
@@ -43,12 +43,12 @@ struct Pair {
 /// All starts in `segment` that the flights allow, in no order.
 pub(super) fn candidates(
     scene: &RefinedScene,
-    parabolas: &Parabolas,
+    paths: &impl Paths,
     segment: &Segment,
     noise: Noise,
     search: Search,
 ) -> Result<Vec<Candidate>> {
-    let kinks = parabolas.kinks(segment);
+    let kinks = paths.kinks(segment);
     let pairs = scene
         .bodies
         .iter()
@@ -82,6 +82,7 @@ pub(super) fn candidates(
 }
 
 /// How a body leaves the collision.
+#[derive(Debug, Clone)]
 pub(super) struct Leaving {
     pub(super) velocity: Vector3<f64>,
     /// l per unit of its mass.
@@ -92,10 +93,10 @@ pub(super) struct Leaving {
 /// best first; each with how the bodies leave.
 pub(super) fn freed_candidates(
     scene: &RefinedScene,
-    parabolas: &Parabolas,
+    paths: &impl Paths,
     segment: &Segment,
 ) -> Result<Vec<(Candidate, Vec<Leaving>)>> {
-    let kinks = parabolas.kinks(segment);
+    let kinks = paths.kinks(segment);
     let pairs = scene
         .bodies
         .iter()
