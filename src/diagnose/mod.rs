@@ -32,6 +32,7 @@ mod throws_in_words;
 mod throws_told;
 mod together;
 mod told;
+mod tried;
 mod unexplained;
 mod verdict;
 mod words;
@@ -62,15 +63,14 @@ pub(crate) use leftover::Leftover;
 pub(crate) use otherwise::Explained;
 pub(crate) use pooled::{PooledCandidate, Throw, pooled};
 pub(crate) use ranking::{TELLS_APART, look_alikes, quasi};
-pub(crate) use rivals::{Rival, rivals};
+pub(crate) use rivals::rivals;
 pub(crate) use throws::{instances, looks, reduced_chi2, throws};
 pub(crate) use together::together;
+pub(crate) use tried::{Tried, tried};
 pub(crate) use words::{in_words, listed};
 
-use rayon::prelude::*;
-
 use crate::effect::EffectRequest;
-use crate::reconstruct::refined::{self, Fitted, Instance};
+use crate::reconstruct::refined::{self, Fitted};
 use crate::reconstruct::{Intervals, RefinedOptions};
 use crate::{Result, Scene};
 
@@ -128,70 +128,6 @@ fn diagnosed(
     let instances = all_candidates(scene, fitted, further)?;
     let tried = tried(scene, fitted, &instances);
     verdict::diagnosis(scene, fitted, instances, tried, otherwise)
-}
-
-/// What was tried on top of a model.
-pub(crate) struct Tried {
-    /// All candidates that can be fitted, the best first by Schwarz's criterion.
-    pub(crate) candidates: Vec<Candidate>,
-    /// Laws that the catalogue hasn't got, as [`rivals()`] finds them; `None` where nobody asked yet.
-    laws: Option<Vec<Rival>>,
-}
-
-impl Tried {
-    /// As [`rivals()`], but found once.
-    pub(crate) fn laws(
-        &mut self,
-        scene: &Scene,
-        fitted: &Fitted,
-        tried: usize,
-    ) -> Result<Vec<Rival>> {
-        match self.laws.take() {
-            Some(laws) => Ok(laws),
-            None => rivals(scene, fitted, tried),
-        }
-    }
-}
-
-/// Tries all `instances` on top of `fitted`.
-pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Tried {
-    let before = HeldOut::of(fitted, fitted.collision_time_s());
-    // A score test that fails leaves all to be refitted.
-    let promising =
-        candidates::promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
-    let judged =
-        |with| candidates::candidate(scene, fitted, with, instances.len(), before.as_ref());
-    let refitted = |chosen: &[Instance]| -> Vec<Candidate> {
-        let refitted = chosen
-            .par_iter()
-            .filter_map(|instance| judged(fitted.with_at_once(scene, instance).ok()?));
-        refitted.collect()
-    };
-    let mut candidates = refitted(&promising);
-    // Far from the null slopes foretell little: where none of these will do, another may, and where
-    // the model is bent far, another may do better.
-    let is_structured = |candidate: &Candidate| Goodness::by(&candidate.fitted, &[]).is_structured;
-    if fitted.is_far_off() || candidates.iter().all(is_structured) {
-        let others = instances.iter().filter(|instance| !promising.contains(instance));
-        candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
-    }
-    let mut laws = None;
-    // It takes most of a diagnosis' time, and is needless beside what leaves nothing.
-    if fitted.is_lost() && candidates.iter().all(is_structured) {
-        let found = rivals(scene, fitted, instances.len()).unwrap_or_default();
-        let law = found.first().filter(|law| law.leaves_nothing(scene));
-        let again = |candidate: Candidate| {
-            if law.is_some_and(|law| !law.holds(&candidate, scene)) {
-                return candidate;
-            }
-            let with = fitted.again_quickly(scene, candidate.fitted.clone()).ok();
-            with.and_then(judged).unwrap_or(candidate)
-        };
-        candidates = candidates.into_par_iter().map(again).collect();
-        laws = Some(found);
-    }
-    candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
-    Tried { candidates, laws }
 }
 
 /// The reconstruction of a fitted model, with covariance intervals.

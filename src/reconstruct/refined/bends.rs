@@ -105,3 +105,38 @@ impl Path {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two bodies of which a quartic bends the one's flight before the collision: both meet their kinks there,
+    /// where they are and as fast, to the rounding of polynomials that are in their powers' span.
+    #[test]
+    fn bent_flights_meet_at_their_kink() {
+        let before = |s: f64| [s + 0.5 * s * s - 0.4 * s.powi(3) + 0.3 * s.powi(4), 2.0 * s, 1.0];
+        let after = |s: f64| [-0.5 * s - s * s, 0.3 * s, 1.0 + 0.1 * s];
+        let pose = |i: i32, bends: bool| {
+            let s = 0.05 * f64::from(i) - 1.03;
+            let [x, y, z] = if s < 0.0 { before(s) } else { after(s) };
+            let x = if bends { x } else { 0.5 * s };
+            serde_json::json!({ "time": 0.05 * f64::from(i), "position": [x, y, z] })
+        };
+        let body = |name: &str, bends: bool| {
+            let poses: Vec<_> = (0..40).map(|i| pose(i, bends)).collect();
+            serde_json::json!({
+                "name": name, "shape": { "type": "sphere", "radius": 0.1 }, "observations": poses
+            })
+        };
+        let scene = serde_json::json!({
+            "schema": "smash.scene/1", "gravity": 0.0, "bodies": [body("a", true), body("b", false)]
+        });
+        let bends = Bends::new(&Scene::parse(&scene.to_string(), "bent").unwrap());
+        let best = bends.best_segments(1)[0];
+        assert!((best.collision_time_s - 1.03).abs() < 1e-4, "{best:?}");
+        let kink = bends.kinks(&best)[0];
+        let [v, w] = [kink.velocity_before, kink.velocity_after];
+        assert!((v - Vector3::new(1.0, 2.0, 0.0)).norm() < 1e-2, "{v:?}");
+        assert!((w - Vector3::new(-0.5, 0.3, 0.1)).norm() < 1e-2, "{w:?}");
+    }
+}

@@ -6,17 +6,15 @@ use std::time::Instant;
 
 use super::acting::{Acting, Instance};
 use super::approach::approached;
-use super::found_again::found_again;
+use super::found_again::{Loose, loosely_found};
 use super::gain::{linearised, orthonormal};
 use super::model::{refined_scene, set_noise};
-use super::noise::{
-    KnownNoise, ROUGHLY_SETTLED, SETTLED, least_beside, positions, settle_noise, turns,
-};
+use super::noise::{KnownNoise, ROUGHLY_SETTLED, SETTLED, settle_noise};
 use super::optimum::{Optimum, evaluated, nested_optimum, optima_from, sort};
 use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
 use super::solve::{Solved, solve};
-use super::starts::{Start, starts};
+use super::starts::starts;
 use crate::bridge::refined::ffi::RefinedScene;
 use crate::reconstruct::{Loss, PhaseReport};
 use crate::scene::Noise;
@@ -34,7 +32,7 @@ pub(crate) struct Fitted {
     pub(crate) loss: Loss,
     pub(crate) segments: usize,
     pub(crate) phases: Vec<PhaseReport>,
-    stated: Option<Noise>,
+    pub(super) stated: Option<Noise>,
 }
 
 impl Fitted {
@@ -65,7 +63,7 @@ impl Fitted {
     pub(crate) fn with(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
         let started = Instant::now();
         let found = self.extended(scene, instance).and_then(|fitted| {
-            let mut fitted = self.again(scene, fitted);
+            let mut fitted = self.with_all_found(scene, fitted);
             fitted.settle()?;
             self.with_phase(scene, fitted, started)
         });
@@ -89,7 +87,8 @@ impl Fitted {
     /// # Errors
     /// No start leads to a solution.
     pub(crate) fn with_quickly(&self, scene: &Scene, instance: &Instance) -> Result<Fitted> {
-        self.again_quickly(scene, self.extended(scene, instance)?)
+        let fitted = self.extended(scene, instance)?;
+        self.roughly_settled(self.with_all_found(scene, fitted))
     }
 
     /// As [`Fitted::with_quickly`], but a fit that has lost its way stays where it is.
@@ -97,9 +96,16 @@ impl Fitted {
         self.roughly_settled(self.extended(scene, instance)?)
     }
 
-    /// As [`Fitted::with_quickly`], where `fitted` is what [`Fitted::with_at_once`] found.
-    pub(crate) fn again_quickly(&self, scene: &Scene, fitted: Fitted) -> Result<Fitted> {
-        self.roughly_settled(self.again(scene, fitted))
+    /// As [`Fitted::with_quickly`], where `fitted` is what [`Fitted::with_at_once`] found, and `loose` what
+    /// [`Fitted::loosely`] did.
+    pub(crate) fn again_quickly(&self, fitted: Fitted, loose: &Loose) -> Result<Fitted> {
+        self.roughly_settled(again(fitted, loose))
+    }
+
+    /// From flights alone, where this has lost its way, and `fitted`, which extends it, has.
+    pub(crate) fn loosely(&self, scene: &Scene, fitted: &Fitted) -> Option<Loose> {
+        let acting = fitted.acting.last().filter(|_| fitted.is_lost())?;
+        self.loosely_with(scene, &fitted.refined, acting)
     }
 
     /// As [`Fitted::with_quickly`], from where `near` is, a fit that extends this, too, and from `values` of
@@ -143,9 +149,11 @@ impl Fitted {
         let acting = instance.act_on(&mut refined);
         let optima = match self.optima_with(scene, &refined, &acting) {
             // From where it is a lost model may lead beyond all numbers, but not from elsewhere.
-            Err(error) => Some(self.optima_found_again(scene, &refined, &acting))
-                .filter(|optima| !optima.is_empty())
-                .ok_or(error)?,
+            Err(error) => {
+                let loose = self.loosely_with(scene, &refined, &acting);
+                let optima = loose.map(|loose| optima_of(&loose, &refined, &acting));
+                optima.filter(|optima| !optima.is_empty()).ok_or(error)?
+            }
             optima => optima?,
         };
         let mut fitted = Fitted { refined, optima, ..self.clone() };
@@ -154,32 +162,28 @@ impl Fitted {
     }
 
     /// `fitted`, which extends this, or where it has lost its way what else is found.
-    fn again(&self, scene: &Scene, mut fitted: Fitted) -> Fitted {
-        if let (Some(acting), true) = (fitted.acting.last(), fitted.is_lost()) {
-            let found = self.optima_found_again(scene, &fitted.refined, acting);
-            fitted.optima.extend(found);
-            sort(&mut fitted.optima);
+    fn with_all_found(&self, scene: &Scene, fitted: Fitted) -> Fitted {
+        match self.loosely(scene, &fitted) {
+            Some(loose) => again(fitted, &loose),
+            None => fitted,
         }
-        fitted
     }
 
-    /// What is found with `acting` from flights alone, where this has lost its way.
-    fn optima_found_again(
+    /// As [`Fitted::loosely`], with `acting`, which `refined` holds already.
+    fn loosely_with(
         &self,
         scene: &Scene,
         refined: &RefinedScene,
         acting: &Acting,
-    ) -> Vec<Optimum> {
+    ) -> Option<Loose> {
         // A second effect is added to what the first one has found; given values may be what the poses
         // contradict: nothing leads from there.
         let instance = &acting.instance;
         let may_be = self.is_lost() && self.acting.is_empty();
         if !(may_be && instance.fixed.is_empty() && instance.is_in_flight()) {
-            return Vec::new();
+            return None;
         }
-        let start = found_again(self, scene, refined, acting).ok().flatten();
-        let starts: Vec<Start> = start.into_iter().collect();
-        optima_from(refined, &starts).unwrap_or_default()
+        loosely_found(self, scene, refined, acting).ok().flatten()
     }
 
     /// `fitted`, which extends this, with what that took as a phase.
@@ -263,53 +267,6 @@ impl Fitted {
         size - after..size - after + free(acting.first..acting.first + acting.count)
     }
 
-    /// χ², with the tilt's prior.
-    pub(crate) fn chi2(&self) -> f64 {
-        2.0 * self.best().solution.cost
-    }
-
-    /// By how much −2 ln L falls to `larger`, a model that holds this one: χ² where the noise is
-    /// stated; else, with each channel's noise at its most likely, Σ ν ln(RSS / RSS of `larger`),
-    /// where ν are the numbers that the larger fit leaves spare in the channel (the restricted
-    /// likelihood: a channel of which little is spare tells little).
-    pub(crate) fn fall_to(&self, larger: &Fitted) -> f64 {
-        if self.stated.is_some() {
-            return self.chi2() - larger.chi2();
-        }
-        let [before, after] = [self, larger].map(Fitted::left);
-        let of = |before: f64, after: f64, spare: Option<f64>| {
-            2.0 * spare.unwrap_or(0.0) * (before / after).ln()
-        };
-        let KnownNoise { position_dof, orientation_dof, .. } = larger.noise;
-        of(before.position, after.position, position_dof)
-            + of(before.orientation, after.orientation, orientation_dof)
-    }
-
-    /// The root mean square of what is left in each channel, no less than its least noise.
-    fn left(&self) -> Noise {
-        let solution = &self.best().solution;
-        let rms = |(count, squares): (f64, f64)| (squares / count.max(1.0)).sqrt();
-        let left = Noise {
-            position: rms(positions(&self.refined, solution)),
-            orientation: rms(turns(&self.refined, solution)),
-        };
-        left.at_least(least_beside(&self.refined, left))
-    }
-
-    /// What share of the squares of `other`, the same model of poses that are read otherwise, this leaves; each
-    /// channel by what this leaves in it. `None` where it leaves more in one.
-    pub(crate) fn share_of(&self, other: &Fitted) -> Option<f64> {
-        /// What a channel that nothing changed differs by.
-        const AS_MUCH: f64 = 0.9;
-        let solution = &self.best().solution;
-        let [own, other] = [self.left(), other.left()];
-        let [position, orientation] =
-            [other.position / own.position, other.orientation / own.orientation];
-        let squares = positions(&self.refined, solution).0 * position.powi(2)
-            + turns(&self.refined, solution).0 * orientation.powi(2);
-        (position.min(orientation) > AS_MUCH).then_some(self.numbers() / squares)
-    }
-
     /// How many of the effect's free scalars the data depend on, beside all other unknowns.
     pub(crate) fn directions(&self, acting: &Acting) -> usize {
         /// Of a column's length; less is rounding.
@@ -335,42 +292,20 @@ impl Fitted {
         }
         directions
     }
+}
 
-    /// How many of the measured numbers the fit used up.
-    pub(crate) fn used(&self) -> f64 {
-        let solution = &self.best().solution;
-        [&solution.position_information, &solution.orientation_information]
-            .map(|channel| self.best().used(channel))
-            .iter()
-            .sum()
+/// `fitted`, or what `loose` leads to.
+fn again(mut fitted: Fitted, loose: &Loose) -> Fitted {
+    if let Some(acting) = fitted.acting.last() {
+        let found = optima_of(loose, &fitted.refined, acting);
+        fitted.optima.extend(found);
+        sort(&mut fitted.optima);
     }
+    fitted
+}
 
-    /// How many numbers were measured.
-    pub(crate) fn numbers(&self) -> f64 {
-        let solution = &self.best().solution;
-        positions(&self.refined, solution).0 + turns(&self.refined, solution).0
-    }
-
-    /// Whether the poses are missed by so much that slopes foretell little; it shows only where noise is
-    /// stated.
-    pub(crate) fn is_far_off(&self) -> bool {
-        const FAR: f64 = 10.0;
-        self.has_stated_noise() && self.chi2() > FAR * self.numbers()
-    }
-
-    /// Whether the fit has lost its way: what is missing alone hardly leaves so much. Where the noise isn't
-    /// stated only turns tell: a spin that has wrapped is what leads astray.
-    pub(crate) fn is_lost(&self) -> bool {
-        /// More than an annotator is ever off.
-        const LARGE_RAD: f64 = 0.2;
-        match self.has_stated_noise() {
-            true => self.is_far_off(),
-            false => self.noise.value.orientation > LARGE_RAD,
-        }
-    }
-
-    /// Whether the noise was stated.
-    pub(crate) fn has_stated_noise(&self) -> bool {
-        self.stated.is_some()
-    }
+/// What `loose` leads to in `refined`, which holds `acting`.
+fn optima_of(loose: &Loose, refined: &RefinedScene, acting: &Acting) -> Vec<Optimum> {
+    let start = loose.start(refined, acting).ok().flatten();
+    start.and_then(|start| optima_from(refined, &[start]).ok()).unwrap_or_default()
 }

@@ -21,16 +21,25 @@ const MOST_SEGMENTS: usize = 2;
 const MOST_TURNS: usize = 2;
 /// Poses of a flight that show roughly how it goes.
 const ENOUGH: usize = 16;
-/// How many times less sure positions are, at first and then.
-const LOOSER: [f64; 2] = [1000.0, 30.0];
+/// How many times less sure positions are at first: off by metres they would drag the spins after them.
+const LOOSER: f64 = 10.0;
 
-/// The start of `nested` with `acting` added, which `refined` holds already.
-pub(super) fn found_again(
+/// A model that is found roughly.
+pub(crate) struct Loose {
+    free: RefinedScene,
+    starts: Vec<Start>,
+    /// With fewer poses and looser positions: the model's own is no less.
+    pub(crate) cost: f64,
+}
+
+/// The model of `nested` with `acting` added, which `refined` holds already; `None` where no start leads
+/// to it.
+pub(super) fn loosely_found(
     nested: &Fitted,
     scene: &Scene,
     refined: &RefinedScene,
     acting: &Acting,
-) -> Result<Option<Start>> {
+) -> Result<Option<Loose>> {
     let mut free = refined.clone();
     let jumps = possible(scene, &free_jump(scene)?);
     let jumps: Vec<Acting> = jumps.iter().map(|jump| jump.act_on(&mut free)).collect();
@@ -64,21 +73,26 @@ pub(super) fn found_again(
             starts.push((start, *gap));
         }
     }
-    // Positions are off by metres at first, and would drag the spins after them.
-    for times in LOOSER {
-        let loose = optima_from(&loosened(&thinned(&free, &starts[0].0), times), &starts)?;
-        starts = loose.into_iter().map(|one| (one.solution.unknowns, one.gap)).collect();
+    let loose = optima_from(&loosened(&thinned(&free, &starts[0].0)), &starts)?;
+    let cost = loose[0].solution.cost;
+    let gaps = gaps(&free, &loose[0].solution.unknowns)?;
+    let starts = loose.into_iter().map(|Optimum { solution, gap, .. }| {
+        let gap = nearest(&gaps, solution.unknowns.collision_time_s).unwrap_or(gap);
+        (solution.unknowns, gap)
+    });
+    Ok(Some(Loose { starts: starts.collect(), free, cost }))
+}
+
+impl Loose {
+    /// The start of `refined`, which holds `acting`: with a contact that makes the same jump.
+    pub(super) fn start(&self, refined: &RefinedScene, acting: &Acting) -> Result<Option<Start>> {
+        let Optimum { solution, gap, .. } = optima_from(&self.free, &self.starts)?.swap_remove(0);
+        let launched = launch(&self.free, &solution.unknowns).map_err(solver_error)?;
+        let wanted: Vec<Leaving> = launched.iter().map(leaving).collect();
+        let mut start = solution.unknowns;
+        start.parameters.truncate(refined.parameters.len());
+        Ok(same_jump(refined, acting, start, &wanted).map(|start| (start, gap)))
     }
-    let gaps = gaps(&free, &starts[0].0)?;
-    for (unknowns, gap) in &mut starts {
-        *gap = nearest(&gaps, unknowns.collision_time_s).unwrap_or(*gap);
-    }
-    let Optimum { solution, gap, .. } = optima_from(&free, &starts)?.swap_remove(0);
-    let launched = launch(&free, &solution.unknowns).map_err(solver_error)?;
-    let wanted: Vec<Leaving> = launched.iter().map(leaving).collect();
-    let mut start = solution.unknowns;
-    start.parameters.truncate(refined.parameters.len());
-    Ok(same_jump(refined, acting, start, &wanted).map(|start| (start, gap)))
 }
 
 /// The scene with [`ENOUGH`] poses a flight, counted outwards from the collision.
@@ -97,11 +111,11 @@ fn thinned(scene: &RefinedScene, near: &RefinedUnknowns) -> RefinedScene {
     thinned
 }
 
-/// The scene with positions so many times less sure.
-fn loosened(scene: &RefinedScene, times: f64) -> RefinedScene {
+/// The scene with positions [`LOOSER`].
+fn loosened(scene: &RefinedScene) -> RefinedScene {
     let mut loose = scene.clone();
     let poses = loose.bodies.iter_mut().flat_map(|body| &mut body.poses);
-    poses.for_each(|pose| pose.position_std_m *= times);
+    poses.for_each(|pose| pose.position_std_m *= LOOSER);
     loose
 }
 

@@ -23,6 +23,29 @@ fn a_model_that_is_far_off_hides_no_strong_effect() {
     }
 }
 
+/// As of a shuttlecock: before the collision drag slows it so much that no parabola is near its path. And a
+/// motor in a body that turns.
+#[test]
+fn a_path_that_no_parabola_is_near_is_found() {
+    let thrust = format!("{}/examples/effects/thrust.toml@b", env!("CARGO_MANIFEST_DIR"));
+    let file = thrust.trim_end_matches("@b");
+    let strong = [
+        ("quadratic_drag@a", effect("quadratic_drag", Some("a"), &[("k", &[0.3])])),
+        (&thrust, effect(file, Some("b"), &[("thrust", &[-2.7, -0.5, -5.6])])),
+    ];
+    for (label, hidden) in strong {
+        for seed in [66, 67] {
+            let mut spec = boxes(seed);
+            spec.observations =
+                Sampling::Regular(RegularSampling { interval: 3, frame_count: 90, gap: None });
+            let scene = with(spec, std::slice::from_ref(&hidden)).scene;
+            assert!(fit(&scene, &[]).fit.reduced_chi2.unwrap() > 100.0);
+            let result = fit(&scene, &[label.to_string()]);
+            assert!(is_in_band(&result, SCENES), "{label}, {seed}: {:?}", result.fit);
+        }
+    }
+}
+
 /// Where a spring has no stiffness its anchor is nothing to it: from the null alone no way leads there.
 #[test]
 fn a_strong_spring_of_ones_own_is_found() {
