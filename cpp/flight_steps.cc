@@ -19,11 +19,12 @@ constexpr double kShortestStep = 0.15;
 // Of an effect's flight, whose position needs steps too: with these the integrator's error is some
 // 1e-7 rad and less.
 constexpr double kEffectStepS = 0.02;
+// Of one flight with effects.
 constexpr double kMostEffectSteps = 2e4;
-// Twelve turns a second, and two between poses: what turns faster, twice as fast as any start, is a
-// spin on its way beyond all numbers.
+// A search for them ends where a body turns farther in a flight than twelve turns a second and two
+// turns a pose: starts have six turns a second, or half a turn from pose to pose, at most.
 constexpr double kFastestRadPerS = 75.0;
-constexpr double kMostRadBetweenPoses = 12.5;
+constexpr double kMostRadAPose = 12.5;
 // How much faster than at the start a body may turn with the start's steps.
 constexpr double kMuchFaster = 1.0 / 0.7;
 
@@ -79,12 +80,16 @@ std::vector<int> FlightSteps::WithEffects(const Flight& flight, int fineness) co
   const double step_s = std::min(step_rad_ / fastest, kEffectStepS) / fineness;
   double reached_s = StartOf(flight);
   const double span_s = std::abs(flight.poses.back().time_s - reached_s);
-  const double most_rad =
-      kFastestRadPerS * span_s + kMostRadBetweenPoses * static_cast<double>(flight.poses.size());
-  // To look at it once is cheap.
-  const bool is_searched = problem_.most_iterations > 0;
-  if (!(span_s / step_s < kMostEffectSteps) || (is_searched && fastest * span_s > most_rad)) {
+  if (!(span_s / step_s < kMostEffectSteps)) {
     throw std::runtime_error("a flight is too long, or turns too fast, to be followed");
+  }
+  // About its largest axis a body of this energy turns slowest. To look at it once is cheap.
+  const Vector3<double> inertia = ToVector3(scene_.bodies[flight.body].inertia_per_mass);
+  const double slowest = fastest * std::sqrt(inertia.minCoeff() / inertia.maxCoeff());
+  const double most_rad =
+      kFastestRadPerS * span_s + kMostRadAPose * static_cast<double>(flight.poses.size());
+  if (problem_.most_iterations > 0 && slowest * span_s > most_rad) {
+    throw std::runtime_error("a body turns too fast for its poses to tell how");
   }
   std::vector<int> steps;
   for (const FlightPose& pose : flight.poses) {

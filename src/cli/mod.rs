@@ -5,6 +5,7 @@ mod batch;
 mod browser;
 mod compare;
 mod comparison;
+mod cut;
 mod demo;
 mod diagnose;
 mod doctor;
@@ -57,6 +58,7 @@ enum Command {
     Power(power::Arguments),
     Effects(effects::Arguments),
     Import(import::Arguments),
+    Cut(cut::Arguments),
     Simulate(simulate::Arguments),
     Schema(schema::Arguments),
     Doctor(doctor::Arguments),
@@ -79,6 +81,7 @@ pub fn main() -> ExitCode {
         Command::Power(arguments) => power::run(&arguments),
         Command::Effects(arguments) => effects::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
+        Command::Cut(arguments) => cut::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),

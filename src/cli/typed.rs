@@ -74,6 +74,7 @@ impl Typed {
         let line = line
             .replace("SCENE SCENE …", &format!("{several}{options}"))
             .replace("compare SCENE", &format!("compare {one}"))
+            .replace("cut SCENE", &format!("cut {one}"))
             .replace(" SCENE ", &format!(" {one}{options} "));
         let line = line
             .strip_suffix(" SCENE")

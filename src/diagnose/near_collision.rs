@@ -88,8 +88,10 @@ impl NearCollision {
                  others, as where a contact lasts or a tracker slips. Without them {shows}."
             ),
             mend: format!(
-                "take the {poses} from {from} to {to} s out of the scene, and ask again: to the model a \
-                 contact is over in a moment"
+                "take the {poses} out, since to the model a contact is over in a moment, and ask again: \
+                 smash cut SCENE --from {} --to {} -o cut.json",
+                outwards(self.from_time, f64::floor),
+                outwards(self.to_time, f64::ceil)
             ),
             missing: explained.missing,
             cause: Cause::NearCollision(NearCollision {
@@ -98,6 +100,12 @@ impl NearCollision {
             }),
         }))
     }
+}
+
+/// A time to be typed, to 10 µs, that holds the pose still.
+fn outwards(time_s: f64, rounding: fn(f64) -> f64) -> f64 {
+    const PER_S: f64 = 1e5;
+    rounding(time_s * PER_S) / PER_S
 }
 
 /// How many poses, from the first on, are rougher than the rest.

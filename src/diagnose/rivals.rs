@@ -50,9 +50,9 @@ pub(crate) struct Rival {
 }
 
 impl OtherLaw {
-    /// Whether it is told beside an impulse that may have lasted.
+    /// Whether it is a push that lasts, told beside an impulse.
     pub(super) fn is_a_push(&self) -> bool {
-        self.goes_with.contains(PUSHES)
+        self.law.starts_with(&line(&PUSH[0]))
     }
 }
 
@@ -153,18 +153,18 @@ pub(super) fn lasting_push(fitted: &Fitted, candidate: &Candidate, tried: usize)
     let spread = jump.iter().map(|jump| jump * rate);
     let values: Vec<f64> = [from_s, rate].into_iter().chain(spread).collect();
     let with = fitted.with_from(&instance, &candidate.fitted, &values).ok()?;
-    let goes_with = format!("time: {PUSHES}, from {from_s:.3} s to {to_s:.3} s");
-    let lines: Vec<String> =
-        laws.iter().map(|(hook, law, _)| format!("{hook} = \"{law}\"")).collect();
+    let goes_with = format!("time: a push that lasts, from {from_s:.3} s to {to_s:.3} s");
+    let lines: Vec<String> = laws.iter().map(line).collect();
     let push = Rival::new(goes_with, lines.join(" and "), (fitted, with), tried + 1)?;
     (push.bic < candidate.bic + TELLS_APART).then_some(push)
 }
 
-const PUSHES: &str = "a push that lasts";
+/// A law with its hook, and its parameter with its unit.
+type PushLaw = (&'static str, &'static str, (&'static str, &'static str));
 
 /// The laws of a push that lasts, with their parameters: it rises and falls evenly, since no flight can be
 /// followed over a jump.
-const PUSH: [(&str, &str, (&str, &str)); 2] = [
+const PUSH: [PushLaw; 2] = [
     (
         "acceleration",
         "step(t - from) * step(1 - rate * (t - from)) * (1 - cos(6.2832 * rate * (t - from))) * a",
@@ -177,7 +177,12 @@ const PUSH: [(&str, &str, (&str, &str)); 2] = [
     ),
 ];
 
-fn push(laws: &[(&str, &str, (&str, &str))]) -> Effect {
+/// As in an effect file.
+fn line((hook, law, _): &PushLaw) -> String {
+    format!("{hook} = \"{law}\"")
+}
+
+fn push(laws: &[PushLaw]) -> Effect {
     let when = [("from", "s", 1), ("rate", "1/s", 1)].into_iter();
     let own = when.chain(laws.iter().map(|(_, _, (name, unit))| (*name, *unit, 3)));
     let own: Vec<_> =

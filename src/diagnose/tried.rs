@@ -6,11 +6,8 @@ use rayon::prelude::*;
 use super::candidates::{candidate, promising};
 use super::rivals::{Rival, rivals};
 use super::{Candidate, Goodness, HeldOut};
-use crate::reconstruct::refined::{Fitted, Instance, Loose};
+use crate::reconstruct::refined::{Fitted, HOPELESS, Instance, Loose};
 use crate::{Result, Scene};
-
-/// Candidates whose ½ χ² is larger than another's by so much are out of the question.
-const HOPELESS: f64 = 40.0;
 
 /// What was tried on top of a model.
 pub(crate) struct Tried {
@@ -39,7 +36,7 @@ impl Tried {
 pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> Tried {
     let before = HeldOut::of(fitted, fitted.collision_time_s());
     // A score test that fails leaves all to be refitted.
-    let promising = promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
+    let likely = promising(scene, fitted, instances).unwrap_or_else(|_| instances.to_vec());
     let judged = |with| candidate(scene, fitted, with, instances.len(), before.as_ref());
     let refitted = |chosen: &[Instance]| -> Vec<Candidate> {
         let refitted = chosen
@@ -47,19 +44,19 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> T
             .filter_map(|instance| judged(fitted.with_at_once(scene, instance).ok()?));
         refitted.collect()
     };
-    let mut candidates = refitted(&promising);
+    let mut candidates = refitted(&likely);
     // Far from the null slopes foretell little: where none of these will do, another may, and where
     // the model is bent far, another may do better.
     let is_structured = |candidate: &Candidate| Goodness::by(&candidate.fitted, &[]).is_structured;
     if fitted.is_far_off() || candidates.iter().all(is_structured) {
-        let others = instances.iter().filter(|instance| !promising.contains(instance));
+        let others = instances.iter().filter(|instance| !likely.contains(instance));
         candidates.extend(refitted(&others.cloned().collect::<Vec<_>>()));
     }
     let mut laws = None;
     // It takes most of a diagnosis' time, and is needless beside what leaves nothing.
     if fitted.is_lost() && candidates.iter().all(is_structured) {
         let found = rivals(scene, fitted, instances.len()).unwrap_or_default();
-        candidates = found_again(scene, fitted, candidates, found.first(), judged);
+        candidates = followed(scene, fitted, candidates, found.first(), judged);
         laws = Some(found);
     }
     candidates.sort_by(|a, b| a.bic.total_cmp(&b.bic));
@@ -68,7 +65,7 @@ pub(crate) fn tried(scene: &Scene, fitted: &Fitted, instances: &[Instance]) -> T
 
 /// The candidates on top of `fitted`, which has lost its way, with what else is found of each. `law`: the
 /// best that the catalogue hasn't got.
-fn found_again(
+fn followed(
     scene: &Scene,
     fitted: &Fitted,
     candidates: Vec<Candidate>,
@@ -94,9 +91,10 @@ fn found_again(
     };
     let Some((first, others)) = all.split_first() else { return Vec::new() };
     let first = again(first, f64::INFINITY);
-    // Where the noise isn't stated each has its own, and costs can't be compared.
+    // Where the noise isn't stated each has its own, and costs can't be compared. Where the first leaves more
+    // than noise a difference counts for less: twice its cost is worse in any case.
     let most = match fitted.has_stated_noise() {
-        true => 0.5 * first.fitted.chi2() + HOPELESS,
+        true => first.fitted.chi2() + HOPELESS,
         false => f64::INFINITY,
     };
     let others = others.par_iter().map(|other| again(other, most));

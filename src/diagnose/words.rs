@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::FALSE_ALARM;
 use super::diagnosis::{CandidateReport, Diagnosis, Verdict};
 use super::otherwise::Otherwise;
+use super::ranking::TELLS_APART;
 use super::rivals::OtherLaw;
 use super::unexplained::{Kind, Unexplained};
 use crate::effect::catalogue;
@@ -31,7 +32,7 @@ pub(super) fn explanation(diagnosis: &Diagnosis, pair: Option<&str>) -> String {
             missing(best, pair, diagnosis.stays_structured)
                 + &errors
                 + &left
-                + &diagnosis.other_laws.first().map_or(String::new(), or_another)
+                + &or_another(best, &diagnosis.other_laws)
         }
         (Verdict::Missing, None) => String::new(),
     }
@@ -102,19 +103,35 @@ impl OtherLaw {
     }
 }
 
-/// What is as good as what is named.
-fn or_another(law: &OtherLaw) -> String {
-    if law.is_a_push() {
-        return format!(
-            " It need not be a blow: these poses can't tell it from {}, as of a hand or a string. More \
-             frames a second about then would.",
-            law.goes_with.trim_start_matches("time: ")
-        );
+/// What is as good as `best`, which is named.
+fn or_another(best: &CandidateReport, laws: &[OtherLaw]) -> String {
+    let law = laws.iter().find(|law| !law.is_a_push()).map_or(String::new(), |law| {
+        format!(
+            " These poses can't tell it from a law that the catalogue hasn't got: {}.",
+            law.in_words()
+        )
+    });
+    let push = laws.iter().find(|law| law.is_a_push()).map(|push| or_a_push(best, push));
+    law + &push.unwrap_or_default()
+}
+
+/// What an impulse may have been instead.
+fn or_a_push(best: &CandidateReport, push: &OtherLaw) -> String {
+    let mut sizes = push.effect.parameters.clone();
+    sizes.retain(|name, _| name != "from" && name != "rate");
+    let push_of = format!("{}, with {}", push.goes_with.replace("time: ", ""), in_words(&sizes));
+    // Each has as many numbers as the other.
+    match push.delta_chi2 > best.delta_chi2 + TELLS_APART {
+        true => format!(
+            " But it was hardly a blow: {push_of}, as of a hand or a string, explains more (χ² falls by \
+             {}).",
+            significant(push.delta_chi2, 3)
+        ),
+        false => format!(
+            " It need not be a blow: these poses can't tell it from {push_of}, as of a hand or a string. \
+             More frames a second about that time would tell."
+        ),
     }
-    format!(
-        " These poses can't tell it from a law that the catalogue hasn't got: {}.",
-        law.in_words()
-    )
 }
 
 /// A law that goes with less of what is left than this share is no hint.

@@ -14,7 +14,7 @@ use super::optimum::{Optimum, evaluated, nested_optimum, optima_from, sort};
 use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
 use super::solve::{Solved, solve};
-use super::starts::starts;
+use super::starts::{extended, starts};
 use crate::bridge::refined::ffi::RefinedScene;
 use crate::reconstruct::{Loss, PhaseReport};
 use crate::scene::Noise;
@@ -74,8 +74,8 @@ impl Fitted {
                      effect of your own may grow beyond all numbers along the flight"
                 }
                 false => {
-                    "with the values given no motion was found that leads to these poses: check their size and unit, \
-                     or leave them out to have them found"
+                    "check the size and unit of the given values, or leave them out: then they are \
+                     fitted; an effect of your own may grow beyond all numbers along the flight"
                 }
             })
         })
@@ -104,8 +104,14 @@ impl Fitted {
 
     /// From flights alone, where this has lost its way, and `fitted`, which extends it, has.
     pub(crate) fn loosely(&self, scene: &Scene, fitted: &Fitted) -> Option<Loose> {
-        let acting = fitted.acting.last().filter(|_| fitted.is_lost())?;
-        self.loosely_with(scene, &fitted.refined, acting)
+        let acting = fitted.acting.last()?;
+        // A second effect is added to what the first one has found; given values may be what the poses
+        // contradict: nothing leads from there.
+        let are_lost = self.is_lost() && fitted.is_lost() && self.acting.is_empty();
+        if !(are_lost && acting.instance.fixed.is_empty() && acting.instance.is_in_flight()) {
+            return None;
+        }
+        loosely_found(self, scene, &fitted.refined, acting).ok().flatten()
     }
 
     /// As [`Fitted::with_quickly`], from where `near` is, a fit that extends this, too, and from `values` of
@@ -148,11 +154,11 @@ impl Fitted {
         let mut refined = self.refined.clone();
         let acting = instance.act_on(&mut refined);
         let optima = match self.optima_with(scene, &refined, &acting) {
-            // From where it is a lost model may lead beyond all numbers, but not from elsewhere.
-            Err(error) => {
-                let loose = self.loosely_with(scene, &refined, &acting);
-                let optima = loose.map(|loose| optima_of(&loose, &refined, &acting));
-                optima.filter(|optima| !optima.is_empty()).ok_or(error)?
+            // From where it is a lost model may lead beyond all numbers, and not from elsewhere.
+            Err(error) if self.is_lost() && instance.fixed.is_empty() => {
+                let null = extended(&self.best().solution.unknowns, &acting.instance.null());
+                let nested = nested_optimum(&refined, &null, self.best());
+                vec![nested.map_err(|_| error)?]
             }
             optima => optima?,
         };
@@ -167,23 +173,6 @@ impl Fitted {
             Some(loose) => again(fitted, &loose),
             None => fitted,
         }
-    }
-
-    /// As [`Fitted::loosely`], with `acting`, which `refined` holds already.
-    fn loosely_with(
-        &self,
-        scene: &Scene,
-        refined: &RefinedScene,
-        acting: &Acting,
-    ) -> Option<Loose> {
-        // A second effect is added to what the first one has found; given values may be what the poses
-        // contradict: nothing leads from there.
-        let instance = &acting.instance;
-        let may_be = self.is_lost() && self.acting.is_empty();
-        if !(may_be && instance.fixed.is_empty() && instance.is_in_flight()) {
-            return None;
-        }
-        loosely_found(self, scene, refined, acting).ok().flatten()
     }
 
     /// `fitted`, which extends this, with what that took as a phase.

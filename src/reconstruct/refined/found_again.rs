@@ -19,16 +19,19 @@ use crate::{Result, Scene};
 /// Segments, and pairs of flights in each, that are tried.
 const MOST_SEGMENTS: usize = 2;
 const MOST_TURNS: usize = 2;
-/// Poses of a flight that show roughly how it goes.
+/// A flight shows roughly how it goes in no more poses than these.
 const ENOUGH: usize = 16;
-/// How many times less sure positions are at first: off by metres they would drag the spins after them.
+/// So many of a body's poses show where its flights meet.
+const MOST_POSES: usize = 128;
+/// How many times less sure positions are at first: they are off by metres, and would drag the spins after
+/// them.
 const LOOSER: f64 = 10.0;
 
 /// A model that is found roughly.
 pub(crate) struct Loose {
     free: RefinedScene,
     starts: Vec<Start>,
-    /// With fewer poses and looser positions: the model's own is no less.
+    /// With fewer poses, looser positions and any jump: the same optimum of the model itself costs no less.
     pub(crate) cost: f64,
 }
 
@@ -43,7 +46,9 @@ pub(super) fn loosely_found(
     let mut free = refined.clone();
     let jumps = possible(scene, &free_jump(scene)?);
     let jumps: Vec<Acting> = jumps.iter().map(|jump| jump.act_on(&mut free)).collect();
-    let paths = Bends::new(scene);
+    let most = scene.bodies().iter().map(|body| body.observations.len()).max().unwrap_or(0);
+    let every = most.div_ceil(MOST_POSES).max(1);
+    let paths = Bends::new(&scene.thinned(every, nested.collision_time_s()));
     let mut bare: Vec<(Start, Vec<Leaving>)> = Vec::new();
     for segment in paths.best_segments(MOST_SEGMENTS) {
         let candidates = freed_candidates(&nested.refined, &paths, &segment)?;
@@ -55,13 +60,15 @@ pub(super) fn loosely_found(
                 start.parameters.extend(jump.instance.null());
             }
             unbend(&mut start, &wanted);
-            bare.push(((start, candidate.gap), wanted));
+            let gap = nearest(&scene.gaps(), start.collision_time_s).unwrap_or(candidate.gap);
+            bare.push(((start, gap), wanted));
         }
     }
-    let Some(((mut first, gap), _)) = bare.first().cloned() else { return Ok(None) };
+    let Some(((first, gap), _)) = bare.first() else { return Ok(None) };
+    let mut first = first.clone();
     first.parameters.truncate(refined.parameters.len());
     // A spring's anchor is nothing to a spring without stiffness: it starts with some, too.
-    let sizes: &[f64] = match is_flat(refined, acting, &first, gap)? {
+    let sizes: &[f64] = match is_flat(refined, acting, &first, *gap)? {
         true => &[0.0, 1.0],
         false => &[0.0],
     };
@@ -111,7 +118,7 @@ fn thinned(scene: &RefinedScene, near: &RefinedUnknowns) -> RefinedScene {
     thinned
 }
 
-/// The scene with positions [`LOOSER`].
+/// The scene with positions [`LOOSER`] times less sure.
 fn loosened(scene: &RefinedScene) -> RefinedScene {
     let mut loose = scene.clone();
     let poses = loose.bodies.iter_mut().flat_map(|body| &mut body.poses);

@@ -44,6 +44,7 @@ pub(crate) use self::fitted::Fitted;
 pub(crate) use self::flown::{FlownPose, flown, model_times};
 pub(crate) use self::found_again::Loose;
 pub(crate) use self::gain::{Gain, gains, information_of_last, linearised};
+pub(crate) use self::optimum::HOPELESS;
 pub(crate) use self::report::reconstruction as report;
 pub(crate) use self::starts::{points, scanned};
 

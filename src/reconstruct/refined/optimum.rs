@@ -14,7 +14,7 @@ use crate::scene::{Gap, gaps_between};
 use crate::{Error, ErrorKind, Result};
 
 /// Optima whose ½ χ² is larger than the best one's by more have lost.
-pub(super) const HOPELESS: f64 = 40.0;
+pub(crate) const HOPELESS: f64 = 40.0;
 
 /// An optimum in one segment.
 #[derive(Debug, Clone)]

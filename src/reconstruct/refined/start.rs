@@ -82,7 +82,6 @@ pub(super) fn candidates(
 }
 
 /// How a body leaves the collision.
-#[derive(Debug, Clone)]
 pub(super) struct Leaving {
     pub(super) velocity: Vector3<f64>,
     /// l per unit of its mass.

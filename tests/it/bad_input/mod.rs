@@ -2,6 +2,7 @@
 //! a child process on each.
 
 mod absurd;
+mod cut;
 mod hints;
 mod outputs;
 mod scenes;

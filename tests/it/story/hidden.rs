@@ -179,17 +179,21 @@ fn the_scale_of_gravity_of_a_lone_body() {
 /// A push that lasts a tenth of a second does as well where it is weak; a strong one's bend would show.
 #[test]
 fn an_impact_or_a_push_that_lasts() {
-    assert!(told_beside_a_push("second_impact", 0.1) && !told_beside_a_push("second_impact", 0.8));
+    let told = |size| told_beside_a_push("second_impact", "a", size);
+    assert!(told(0.1) && !told(0.8));
 }
 
 /// The same at the collision: a cord that goes taut pulls for a while.
 #[test]
 fn an_impulse_from_outside_or_a_push_that_lasts() {
-    let name = "external_impulse";
-    assert!(told_beside_a_push(name, 0.1) && !told_beside_a_push(name, 1.6));
+    // On b its part along the contact is another mass ratio, which a push's is less.
+    for (body, weak) in [("a", 0.1), ("b", 0.05)] {
+        let told = |size| told_beside_a_push("external_impulse", body, size);
+        assert!(told(weak) && !told(0.8), "{body}");
+    }
 }
 
-fn told_beside_a_push(name: &str, size: f64) -> bool {
+fn told_beside_a_push(name: &str, body: &str, size: f64) -> bool {
     let mut spec = boxes(1);
     spec.observations =
         Sampling::Regular(RegularSampling { interval: 1, frame_count: 90, gap: None });
@@ -199,10 +203,10 @@ fn told_beside_a_push(name: &str, size: f64) -> bool {
         "second_impact" => &[("time", &[1.133]), ("impulse", &impulse), ("spin", &spin)],
         _ => &[("P", &impulse)],
     };
-    let scene = with(spec, &[effect(name, Some("a"), numbers)]).scene;
+    let scene = with(spec, &[effect(name, Some(body), numbers)]).scene;
     let diagnosis = smash::diagnose(&scene, &RefinedOptions::default(), &[]).unwrap();
     let first = diagnosis.candidates[0].label();
-    assert_eq!(first, format!("{name}@a"), "{}", diagnosis.explanation);
+    assert_eq!(first, format!("{name}@{body}"), "{}", diagnosis.explanation);
     let is_told = diagnosis.explanation.contains("a push that lasts");
     let is_beside = |law: &OtherLaw| law.goes_with.contains("a push that lasts");
     assert_eq!(is_told, diagnosis.other_laws.iter().any(is_beside));

@@ -56,6 +56,32 @@ fn a_contact_that_lasts_may_be_all_that_is_left() {
     assert!(told.advice.contains(&told.otherwise.unwrap().mend), "{:?}", told.advice);
 }
 
+/// The command that is printed leaves exactly these poses out, and then nothing is missing.
+#[test]
+fn the_poses_of_a_contact_are_cut_by_the_command_that_is_printed() {
+    let scene = softened(&with(dense(plain_balls(61)), &[]));
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("soft.json"), scene.to_file().to_json()).unwrap();
+    let typed = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_smash"));
+        let output = command.args(arguments).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let told = typed(&["diagnose", "soft.json", "-o", "soft.diagnosis.json"]);
+    let cut = told.lines().find_map(|line| line.split_once("smash cut ")).unwrap().1;
+    let arguments: Vec<&str> = std::iter::once("cut").chain(cut.split_whitespace()).collect();
+    typed(&arguments);
+    let file = std::fs::read_to_string(folder.path().join("soft.diagnosis.json")).unwrap();
+    let (near, _) = without_contact(serde_json::from_str::<Diagnosis>(&file).unwrap().otherwise);
+    let count = |scene: &Scene| -> usize {
+        scene.bodies().iter().map(|body| body.observations.len()).sum()
+    };
+    let rest = Scene::read(folder.path().join("cut.json")).unwrap();
+    assert_eq!(count(&rest), count(&scene) - near.poses);
+    assert_eq!(diagnosis(&rest).verdict, smash::diagnose::Verdict::NothingMissing);
+}
+
 #[test]
 fn beside_a_contact_that_lasts_the_effect_is_told_that_is_missing() {
     let drag = effect("quadratic_drag", Some("a"), &[("k", &[0.2])]);

@@ -201,3 +201,25 @@ fn fast_laws_are_followed_or_refused() {
     let error = solve(2e4).unwrap_err().to_string();
     assert!(error.contains("changes too fast along the flight"), "{error}");
 }
+
+/// A rod turns slowly about its middle with an energy that would turn it fast about its long axis: only
+/// what surely turns too fast ends a search, and to look at that once is allowed.
+#[test]
+fn a_search_ends_where_a_body_turns_too_fast() {
+    let drag = instance(&find("linear_drag").unwrap(), Some(0));
+    let solve = |omega: f64, most_iterations: u32| {
+        let mut case = Case::new(&[BOX, BRICK], false).with(&drag, &[0.2]);
+        let inertia = [2e-5, 4e-3, 4e-3];
+        case.scene.bodies[0].inertia_per_mass = inertia;
+        case.problem.start.bodies[0].orientation = [1.0, 0.0, 0.0, 0.0];
+        case.problem.start.bodies[0].spin_before = [0.0, omega * inertia[1], 0.0];
+        case.problem.start.impulse = [0.0; 3];
+        case.problem.most_iterations = most_iterations;
+        let case = case.seen();
+        solve_refined(&case.scene, &case.problem)
+    };
+    assert!(solve(14.0, 50).is_ok());
+    let error = solve(210.0, 50).unwrap_err().to_string();
+    assert!(error.contains("turns too fast"), "{error}");
+    assert!(solve(210.0, 0).is_ok());
+}
