@@ -57,7 +57,8 @@ pub(super) fn freed(
     refined: &RefinedScene,
     acting: &Acting,
 ) -> Result<Vec<Start>> {
-    let mut free = vec![freed_optimum(nested, scene)?];
+    // A spin that has wrapped may be too fast to start from.
+    let mut free: Vec<_> = freed_optimum(nested, scene).into_iter().collect();
     let parabolas = Parabolas::new(scene);
     for segment in parabolas.best_segments(1) {
         let candidates = freed_candidates(&nested.refined, &parabolas, &segment)?;
