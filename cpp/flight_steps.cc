@@ -21,8 +21,8 @@ constexpr double kShortestStep = 0.15;
 constexpr double kEffectStepS = 0.02;
 // Of one flight with effects.
 constexpr double kMostEffectSteps = 2e4;
-// A search for them ends where a body turns farther in a flight than twelve turns a second and two
-// turns a pose: starts have six turns a second, or half a turn from pose to pose, at most.
+// A search ends where a body with effects turns farther in a flight than twelve turns a second and
+// two a pose: from its own poses it starts with six a second, or half a turn a pose, at most.
 constexpr double kFastestRadPerS = 75.0;
 constexpr double kMostRadAPose = 12.5;
 // How much faster than at the start a body may turn with the start's steps.
