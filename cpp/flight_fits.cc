@@ -45,7 +45,7 @@ class SpinResiduals {
       if (i > 0) {
         const double duration_s = pose.time_s - poses_[i - 1].time_s;
         rotation.Advance(duration_s, FreeRotation::Pairs(duration_s, longest_step_s_),
-                         jacobian != nullptr);
+                         jacobian ? FreeRotation::kState : FreeRotation::kNothing);
       }
       const double per_rad = 1.0 / pose.orientation_std_rad;
       const Vector3<double> error =
@@ -115,9 +115,9 @@ SpinFit AtCollision(const SpinFlight& flight, double step_s, Quaternion<double> 
   const int pairs = FreeRotation::Pairs(duration_s, step_s);
   orientation.normalize();
   FreeRotation back(inertia, orientation, l);
-  back.Advance(-duration_s, pairs, false);
+  back.Advance(-duration_s, pairs, FreeRotation::kNothing);
   FreeRotation forth(inertia, back.world_from_body(), l);
-  forth.Advance(duration_s, pairs, true);
+  forth.Advance(duration_s, pairs, FreeRotation::kState);
   Matrix6 first_by_collision = Matrix6::Identity();
   first_by_collision.topLeftCorner<3, 3>() += forth.psi() * Skew(l);
   first_by_collision.topRightCorner<3, 3>() = forth.psi();

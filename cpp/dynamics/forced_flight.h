@@ -21,6 +21,7 @@ class ForcedFlight {
                bool turns, bool is_after, const FlightState<T>& start, const T& start_s)
       : laws_(laws),
         gravity_(gravity),
+        inertia_(inertia_per_mass),
         inverse_inertia_(inertia_per_mass.cwiseInverse()),
         turns_(turns),
         direction_(is_after ? 1.0 : -1.0),
@@ -70,7 +71,9 @@ class ForcedFlight {
     if (laws_.CouplesRotation()) {
       for (int step = 0; step < steps; ++step) Step(T(time_s_ + T(step) * step_s), step_s);
     } else {
-      if (turns_) state_.q = TurnFreely(state_.q, state_.l, inverse_inertia_, span_s, steps);
+      if (turns_) {
+        state_.q = TurnFreely(state_.q, state_.l, inertia_, span_s, (steps + 1) / 2);
+      }
       if (laws_.Has(Hook::kAcceleration)) {
         for (int step = 0; step < steps; ++step) StepPath(T(time_s_ + T(step) * step_s), step_s);
       } else {
@@ -143,7 +146,7 @@ class ForcedFlight {
   }
 
   BodyLaws<T>& laws_;
-  Vector3<T> gravity_, inverse_inertia_;
+  Vector3<T> gravity_, inertia_, inverse_inertia_;
   bool turns_;
   double direction_;
   FlightState<T> state_;

@@ -44,9 +44,13 @@ Quaternion<T> RungeKuttaStep(const Quaternion<T>& q, const Vector3<T>& l,
 // A small turn phi of the orientation and a change d of l obey dphi/dt = A (l x phi + d) with
 // A = R I^-1 R^T. Hence phi(t) = (1 + Psi [l]x) phi(0) + Psi d, where dPsi/dt = A ([l]x Psi + 1)
 // and Psi(0) = 0: one matrix tells both derivatives. It is integrated as X = R^T Psi, with
-// dX/dt = I^-1 ([R^T l]x X + R^T) - [omega in body]x X.
+// dX/dt = I^-1 ([R^T l]x X + R^T) - [omega in body]x X. The moments of inertia
+// obey the same with -diag(I^-1 omega in body) in the place of I^-1 R^T.
 class FreeRotation {
  public:
+  // What it is differentiated by.
+  enum By { kNothing, kState, kStateAndInertia };
+
   FreeRotation(const Vector3<double>& inertia_per_mass, const Quaternion<double>& world_from_body,
                const Vector3<double>& l)
       : inverse_inertia_(inertia_per_mass.cwiseInverse()),
@@ -62,57 +66,70 @@ class FreeRotation {
 
   const Quaternion<double>& world_from_body() const { return q_; }
   Matrix3 psi() const { return ToMatrix(q_) * x_; }
+  // Of the turn in the world, by the moments of inertia.
+  Matrix3 by_inertia() const { return ToMatrix(q_) * y_; }
   Vector3<double> omega() const { return AngularVelocity(q_, l_, inverse_inertia_); }
 
-  // Moves on by `duration_s` (negative: back) in `pairs` pairs of steps. Psi is only needed to the
-  // accuracy of a derivative: one step of its own for each pair. Where inertia is isotropic the
-  // spin is constant, and both have a closed form.
-  void Advance(double duration_s, int pairs, bool with_psi) {
-    if (isotropic_) return AdvanceIsotropic(duration_s, with_psi);
+  // Moves on by `duration_s` (negative: back) in `pairs` pairs of steps. Derivatives are only
+  // needed to the accuracy of a derivative: one step of their own for each pair. Where inertia is
+  // isotropic the spin is constant, and all have a closed form.
+  void Advance(double duration_s, int pairs, By by) {
+    if (isotropic_) return AdvanceIsotropic(duration_s, by);
     const double step_s = 0.5 * duration_s / pairs;
     for (int pair = 0; pair < pairs; ++pair) {
       const Quaternion<double> middle = RungeKuttaStep(q_, l_, inverse_inertia_, step_s);
       const Quaternion<double> end = RungeKuttaStep(middle, l_, inverse_inertia_, step_s);
-      if (with_psi) StepX(Frame(*this, q_), Frame(*this, middle), Frame(*this, end), 2.0 * step_s);
+      if (by != kNothing) {
+        const Frame frames[3] = {Frame(*this, q_), Frame(*this, middle), Frame(*this, end)};
+        Step(frames, &Frame::by_spin, 2.0 * step_s, &x_);
+        if (by == kStateAndInertia) Step(frames, &Frame::by_inertia, 2.0 * step_s, &y_);
+      }
       q_ = end;
     }
   }
 
  private:
-  // What the rate of X needs of an orientation.
+  // What rates need of an orientation; the last two are what drives X and that by inertia.
   struct Frame {
-    Frame(const FreeRotation& rotation, const Quaternion<double>& q)
-        : body_from_world(ToMatrix(q).transpose()),
-          l(body_from_world * rotation.l_),
-          omega(l.cwiseProduct(rotation.inverse_inertia_)) {}
-    Matrix3 body_from_world;
+    Frame(const FreeRotation& rotation, const Quaternion<double>& q) {
+      const Matrix3 body_from_world = ToMatrix(q).transpose();
+      l = body_from_world * rotation.l_;
+      omega = l.cwiseProduct(rotation.inverse_inertia_);
+      by_spin = rotation.inverse_inertia_.asDiagonal() * body_from_world;
+      by_inertia = -rotation.inverse_inertia_.cwiseProduct(omega).asDiagonal().toDenseMatrix();
+    }
     Vector3<double> l, omega;
+    Matrix3 by_spin, by_inertia;
   };
 
-  Matrix3 Rate(const Frame& frame, const Matrix3& x) const {
+  Matrix3 Rate(const Frame& frame, const Matrix3& driven_by, const Matrix3& x) const {
     Matrix3 rate;
     for (int column = 0; column < 3; ++column) {
       const Vector3<double> at = x.col(column);
-      rate.col(column) =
-          inverse_inertia_.cwiseProduct(frame.l.cross(at) + frame.body_from_world.col(column)) -
-          frame.omega.cross(at);
+      rate.col(column) = inverse_inertia_.cwiseProduct(frame.l.cross(at)) + driven_by.col(column) -
+                         frame.omega.cross(at);
     }
     return rate;
   }
 
-  void StepX(const Frame& start, const Frame& middle, const Frame& end, double step_s) {
-    const Matrix3 k1 = Rate(start, x_);
-    const Matrix3 k2 = Rate(middle, x_ + 0.5 * step_s * k1);
-    const Matrix3 k3 = Rate(middle, x_ + 0.5 * step_s * k2);
-    const Matrix3 k4 = Rate(end, x_ + step_s * k3);
-    x_ += (step_s / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
+  void Step(const Frame (&frames)[3], Matrix3 Frame::*driven_by, double step_s, Matrix3* x) const {
+    const auto rate = [&](const Frame& frame, const Matrix3& at) {
+      return Rate(frame, frame.*driven_by, at);
+    };
+    const Matrix3 k1 = rate(frames[0], *x);
+    const Matrix3 k2 = rate(frames[1], *x + 0.5 * step_s * k1);
+    const Matrix3 k3 = rate(frames[1], *x + 0.5 * step_s * k2);
+    const Matrix3 k4 = rate(frames[2], *x + step_s * k3);
+    *x += (step_s / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
   }
 
-  void AdvanceIsotropic(double duration_s, bool with_psi) {
+  void AdvanceIsotropic(double duration_s, By by) {
     const Vector3<double> turn = (inverse_inertia_[0] * duration_s) * l_;
     const Matrix3 psi_before = psi();
     q_ = Multiply(ExpRotation(turn), q_);
-    if (!with_psi) return;
+    if (by == kNothing) return;
+    // The spin is constant in the body, too.
+    y_.diagonal() -= (duration_s * inverse_inertia_[0]) * (ToMatrix(q_).transpose() * omega());
     // Psi(s + t) = exp([omega] t) Psi(s) + (t / I) J_l(omega t).
     x_ = ToMatrix(q_).transpose() * (ToMatrix(ExpRotation(turn)) * psi_before +
                                      (inverse_inertia_[0] * duration_s) * LeftJacobian(turn));
@@ -122,7 +139,7 @@ class FreeRotation {
   bool isotropic_;
   Quaternion<double> q_;
   Vector3<double> l_;
-  Matrix3 x_ = Matrix3::Zero();
+  Matrix3 x_ = Matrix3::Zero(), y_ = Matrix3::Zero();
 };
 
 }  // namespace smash

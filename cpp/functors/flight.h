@@ -116,7 +116,8 @@ class FlightCost : public ceres::CostFunction {
       }
       pairs += pairs_[i];
       if (SeesSpin(pose)) {
-        rotation.Advance(pose.time_s - rotated_s, pairs, jacobians != nullptr);
+        rotation.Advance(pose.time_s - rotated_s, pairs,
+                         jacobians ? FreeRotation::kState : FreeRotation::kNothing);
         rotated_s = pose.time_s;
         pairs = 0;
         const Vector3<double> turn =

@@ -152,6 +152,7 @@ fn of_seeds(arguments: &Arguments) -> Result<()> {
         |seed: &u64| hidden_scene(&[names[*seed as usize % names.len()]], Regime::Medium, *seed);
     let mut timed = in_parallel(&seeds(arguments.timed), timed)?;
     timed.retain(|case| case.scene.bodies().len() == 2);
+    keep(&timed)?;
     tell(&timed, time::table)
 }
 
