@@ -71,6 +71,11 @@ std::vector<double*> ValuesOf(const std::vector<Block*>& blocks) {
   return values;
 }
 
+bool RefinedBlocks::IsParameter(const Block& block) const {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [&](const Block& parameter) { return &parameter == &block; });
+}
+
 RefinedUnknowns RefinedBlocks::Unknowns() const {
   RefinedUnknowns unknowns = start_;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

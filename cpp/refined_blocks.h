@@ -30,6 +30,8 @@ struct RefinedBlocks {
   // Of a flight with effects, whose parameters are these, in the order of EffectBlocks.
   std::vector<Block*> OfEffectFlight(std::size_t body, bool is_after,
                                      const std::vector<std::size_t>& used);
+  // Whether a block is one of `parameters`.
+  bool IsParameter(const Block& block) const;
   // What the numbers stand for.
   RefinedUnknowns Unknowns() const;
 

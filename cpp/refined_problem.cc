@@ -97,6 +97,29 @@ class RefinedFit {
   }
 
   RefinedSolution Solve() {
+    RefinedSolution solution{};
+    if (problem_.most_iterations > 0) Minimise(solution);
+    solution.unknowns = blocks_.Unknowns();
+    Summarise(scene_, flights_, blocks_, problem_.jacobian, solution);
+    if (problem_.most_iterations == 0) solution.cost_initial = solution.cost;
+    return solution;
+  }
+
+  // Whether the integrator's error counts beside what the fit misses.
+  bool IsInexact(double cost) const {
+    double numbers = 0.0;
+    for (const Flight& flight : flights_) numbers += flight.cost->num_residuals();
+    const double missed = std::sqrt(2.0 * cost / numbers);
+    return IntegrationError() > kLargestError * std::min(kMostMissed, std::max(1.0, missed));
+  }
+
+  // Whether a body turns much faster than at the start.
+  bool IsTooCoarse(const RefinedUnknowns& unknowns) const { return steps_.AreTooLong(unknowns); }
+
+  const std::vector<Flight>& flights() const { return flights_; }
+
+ private:
+  void Minimise(RefinedSolution& solution) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.num_threads = 1;
@@ -117,29 +140,11 @@ class RefinedFit {
     if (!summary.IsSolutionUsable()) {
       throw std::runtime_error("no usable solution: " + summary.message);
     }
-    RefinedSolution solution;
-    solution.unknowns = blocks_.Unknowns();
     solution.cost_initial = summary.initial_cost;
     solution.iterations = static_cast<std::uint32_t>(summary.iterations.size()) - 1;
     solution.converged = summary.termination_type == ceres::CONVERGENCE;
-    Summarise(scene_, flights_, blocks_, problem_.with_jacobian, solution);
-    return solution;
   }
 
-  // Whether the integrator's error counts beside what the fit misses.
-  bool IsInexact(double cost) const {
-    double numbers = 0.0;
-    for (const Flight& flight : flights_) numbers += flight.cost->num_residuals();
-    const double missed = std::sqrt(2.0 * cost / numbers);
-    return IntegrationError() > kLargestError * std::min(kMostMissed, std::max(1.0, missed));
-  }
-
-  // Whether a body turns much faster than at the start.
-  bool IsTooCoarse(const RefinedUnknowns& unknowns) const { return steps_.AreTooLong(unknowns); }
-
-  const std::vector<Flight>& flights() const { return flights_; }
-
- private:
   bool has_spin(std::size_t body) const { return scene_.bodies[body].has_spin; }
 
   void AddFlights() {

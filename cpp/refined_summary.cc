@@ -1,5 +1,7 @@
 #include "refined_summary.h"
 
+#include <stdexcept>
+
 #include "ceres_compat.h"
 
 namespace smash {
@@ -19,24 +21,24 @@ void Copy(const MatrixX& from, rust::Vec<double>& to) {
 
 // The flight's derivatives by all unknowns, orientations as turns in the world.
 MatrixX TangentJacobian(const RefinedScene& scene, const Flight& flight, const RefinedBlocks& all,
-                        Eigen::VectorXd& residuals) {
+                        JacobianBy by, Eigen::VectorXd& residuals) {
   const auto rows = residuals.size();
-  std::vector<MatrixX> ambient;
-  std::vector<double*> jacobians;
-  for (const Block* block : flight.blocks) {
-    ambient.emplace_back(rows, static_cast<Eigen::Index>(block->values.size()));
+  std::vector<MatrixX> ambient(flight.blocks.size());
+  std::vector<double*> jacobians(flight.blocks.size(), nullptr);
+  for (std::size_t i = 0; i < flight.blocks.size(); ++i) {
+    const Block& block = *flight.blocks[i];
+    const bool is_spin = i == kOrientation && !scene.bodies[flight.body].has_spin;
+    const bool counts = by != JacobianBy::Parameters || all.IsParameter(block);
+    if (block.place < 0 || is_spin || !counts) continue;
+    ambient[i].resize(rows, static_cast<Eigen::Index>(block.values.size()));
+    jacobians[i] = ambient[i].data();
   }
-  for (std::size_t i = 0; i < ambient.size(); ++i) {
-    const bool counts = flight.blocks[i]->place >= 0;
-    jacobians.push_back(counts ? ambient[i].data() : nullptr);
-  }
-  if (!scene.bodies[flight.body].has_spin) jacobians[kOrientation] = nullptr;
   const std::vector<double*> values = ValuesOf(flight.blocks);
   flight.cost->Evaluate(values.data(), residuals.data(), jacobians.data());
   MatrixX jacobian = MatrixX::Zero(rows, all.size);
   for (std::size_t i = 0; i < flight.blocks.size(); ++i) {
+    if (!jacobians[i]) continue;
     const Block& block = *flight.blocks[i];
-    if (block.place < 0) continue;
     auto target = jacobian.middleCols(block.place, block.tangent_size);
     if (i == kOrientation) {
       Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
@@ -67,7 +69,8 @@ MatrixX Prior(const RefinedScene& scene, const RefinedBlocks& blocks, double& ch
 
 // With a Jacobian the information follows from it: the channels' are left at zero.
 void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights,
-               const RefinedBlocks& blocks, bool with_jacobian, RefinedSolution& solution) {
+               const RefinedBlocks& blocks, JacobianBy jacobian_by, RefinedSolution& solution) {
+  const bool with_jacobian = jacobian_by != JacobianBy::Nothing;
   MatrixX position = MatrixX::Zero(blocks.size, blocks.size);
   MatrixX orientation = MatrixX::Zero(blocks.size, blocks.size);
   double chi2 = 0.0;
@@ -79,7 +82,10 @@ void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights,
   std::vector<std::vector<Seen>> before(blocks.bodies.size()), after(blocks.bodies.size());
   for (const Flight& flight : flights) {
     Eigen::VectorXd residuals(flight.cost->num_residuals());
-    const MatrixX jacobian = TangentJacobian(scene, flight, blocks, residuals);
+    const MatrixX jacobian = TangentJacobian(scene, flight, blocks, jacobian_by, residuals);
+    if (!residuals.allFinite() || !jacobian.allFinite()) {
+      throw std::runtime_error("no usable solution: it leads beyond all numbers");
+    }
     chi2 += residuals.squaredNorm();
     int row = 0;
     for (const FlightPose& pose : flight.poses) {

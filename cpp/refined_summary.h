@@ -21,8 +21,9 @@ struct Flight {
   }
 };
 
-// Fills them into `solution`, from one evaluation of each flight; the Jacobian only if asked for.
+// Fills them into `solution`, from one evaluation of each flight; the Jacobian as far as it is
+// asked for.
 void Summarise(const RefinedScene& scene, const std::vector<Flight>& flights,
-               const RefinedBlocks& blocks, bool with_jacobian, RefinedSolution& solution);
+               const RefinedBlocks& blocks, JacobianBy jacobian_by, RefinedSolution& solution);
 
 }  // namespace smash

@@ -139,8 +139,17 @@ pub(crate) mod ffi {
         restitution: RestitutionPin,
         /// 0: only evaluates the start.
         most_iterations: u32,
-        /// Whether the solution is to hold the Jacobian.
-        with_jacobian: bool,
+        /// What the solution's Jacobian is to be by.
+        jacobian: JacobianBy,
+    }
+
+    /// The unknowns that a Jacobian is by; its other columns are zero.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    enum JacobianBy {
+        Nothing,
+        Everything,
+        /// The effects' parameters.
+        Parameters,
     }
 
     /// Model minus observation, as a pose's residual.

@@ -3,7 +3,7 @@
 
 use crate::Result;
 use crate::bridge::refined::ffi::{
-    self, ParameterRule, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution,
+    self, JacobianBy, ParameterRule, RefinedHold, RefinedProblem, RefinedScene, RefinedSolution,
     RefinedUnknowns, RestitutionPin,
 };
 use crate::reconstruct::solver_error;
@@ -32,7 +32,7 @@ pub(super) fn free_problem(unknowns: &RefinedUnknowns, gap: &Gap) -> RefinedProb
         hold: RefinedHold { collision_time: false, log_mass_ratio: false },
         restitution: RestitutionPin { value: 0.0, weight: 0.0 },
         most_iterations: MOST_ITERATIONS,
-        with_jacobian: false,
+        jacobian: JacobianBy::Nothing,
     }
 }
 

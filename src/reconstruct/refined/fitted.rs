@@ -15,7 +15,7 @@ use super::parabolas::Parabolas;
 use super::robust::settle_robustly;
 use super::solve::{Solved, solve};
 use super::starts::{extended, starts};
-use crate::bridge::refined::ffi::RefinedScene;
+use crate::bridge::refined::ffi::{JacobianBy, RefinedScene};
 use crate::reconstruct::{Loss, PhaseReport};
 use crate::scene::Noise;
 use crate::{Result, Scene};
@@ -218,7 +218,8 @@ impl Fitted {
     fn cost_with_poses_of(&self, other: &Fitted) -> Result<f64> {
         let refined = RefinedScene { bodies: other.refined.bodies.clone(), ..self.refined.clone() };
         let best = self.best();
-        Ok(evaluated(&refined, &best.solution.unknowns, best.gap)?.cost)
+        let unknowns = &best.solution.unknowns;
+        Ok(evaluated(&refined, unknowns, best.gap, JacobianBy::Nothing)?.cost)
     }
 
     /// Refitted to other noise or other poses, from where it is.

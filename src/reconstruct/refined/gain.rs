@@ -6,7 +6,9 @@ use super::acting::Instance;
 use super::fitted::Fitted;
 use super::optimum::{evaluated, information};
 use crate::Result;
-use crate::bridge::refined::ffi::{RefinedBody, RefinedPose, RefinedScene, RefinedUnknowns};
+use crate::bridge::refined::ffi::{
+    JacobianBy, RefinedBody, RefinedPose, RefinedScene, RefinedUnknowns,
+};
 use crate::effect::Scan;
 use crate::scene::Gap;
 
@@ -26,7 +28,16 @@ pub(crate) fn linearised(
     unknowns: &RefinedUnknowns,
     gap: Gap,
 ) -> Result<Linearised> {
-    let solution = evaluated(refined, unknowns, gap)?;
+    tangent(refined, unknowns, gap, JacobianBy::Everything)
+}
+
+fn tangent(
+    refined: &RefinedScene,
+    unknowns: &RefinedUnknowns,
+    gap: Gap,
+    by: JacobianBy,
+) -> Result<Linearised> {
+    let solution = evaluated(refined, unknowns, gap, by)?;
     let mut residuals = Vec::new();
     let poses =
         refined.bodies.iter().flat_map(|body| body.poses.iter().map(|p| (body.has_spin, p)));
@@ -79,14 +90,68 @@ pub(crate) struct Gain {
     pub(crate) step: Vec<f64>,
 }
 
-/// The gain of `fitted` by each of `candidates`, whose scalars are given.
+/// The gain of `fitted` by each of `candidates`, with scalars at which it does nothing.
 pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Result<Vec<Gain>> {
+    let best = fitted.best();
+    let tangent = linearised(&fitted.refined, &best.solution.unknowns, best.gap)?;
+    let known = orthonormal(tangent.jacobian);
+    let apart = |m: &DMatrix<f64>| m - &known * (known.tr_mul(m));
+    let residuals = &tangent.residuals - &known * known.tr_mul(&tangent.residuals);
+    let gain = |added: DMatrix<f64>| {
+        let mut rest = apart(&added);
+        for (mut rest, column) in rest.column_iter_mut().zip(added.column_iter()) {
+            if rest.norm() < ROUNDING.sqrt() * column.norm() {
+                rest.fill(0.0);
+            }
+        }
+        let basis = orthonormal(rest.clone());
+        let along = basis.tr_mul(&residuals);
+        let inverse = match basis.is_empty() {
+            true => None,
+            false => basis.tr_mul(&rest).pseudo_inverse(ROUNDING.sqrt()).ok(),
+        };
+        let step =
+            inverse.map_or(vec![0.0; rest.ncols()], |inverse| (-inverse * &along).data.into());
+        Gain { chi2: along.norm_squared(), directions: basis.ncols(), step }
+    };
+    let mut gains = Vec::new();
+    for some in in_passes(fitted, candidates) {
+        gains.extend(columns(fitted, some)?.into_iter().map(gain));
+    }
+    Ok(gains)
+}
+
+/// `candidates` in turn, so many at once that the solver takes each body's derivatives in one pass:
+/// in every pass all laws are followed.
+fn in_passes<'a>(
+    fitted: &Fitted,
+    candidates: &'a [(Instance, Vec<f64>)],
+) -> Vec<&'a [(Instance, Vec<f64>)]> {
+    /// Derivatives that a pass takes.
+    const MOST: usize = 28;
+    let mut passes = Vec::new();
+    let mut first = 0;
+    let mut counts = vec![0; fitted.refined.bodies.len()];
+    for (index, (instance, values)) in candidates.iter().enumerate() {
+        let bodies = instance.bodies(&fitted.refined);
+        if index > first && bodies.iter().any(|body| counts[*body] + values.len() > MOST) {
+            passes.push(&candidates[first..index]);
+            first = index;
+            counts.fill(0);
+        }
+        bodies.into_iter().for_each(|body| counts[body] += values.len());
+    }
+    passes.push(&candidates[first..]);
+    passes
+}
+
+/// What the residuals of `fitted` change by with the free scalars of each of `candidates`.
+fn columns(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Result<Vec<DMatrix<f64>>> {
     let mut refined = fitted.refined.clone();
     let best = fitted.best();
     let mut unknowns = best.solution.unknowns.clone();
-    let base = best.solution.size;
     let mut columns = Vec::new();
-    let mut next = base;
+    let mut next = best.solution.size;
     for (instance, values) in candidates {
         let acting = instance.act_on(&mut refined);
         // Which moment or pose it is, is held while a scan goes through them.
@@ -95,34 +160,12 @@ pub(crate) fn gains(fitted: &Fitted, candidates: &[(Instance, Vec<f64>)]) -> Res
         }
         unknowns.parameters.extend(values);
         let free = refined.parameters[acting.first..].iter().filter(|rule| !rule.held).count();
-        columns.push(next..next + free);
+        columns.push((next, free));
         next += free;
     }
-    let tangent = linearised(&refined, &unknowns, best.gap)?;
-    let (known, added) = tangent.jacobian.columns_range_pair(..base, base..);
-    let basis = orthonormal(known.into_owned());
-    let apart = |m: &DMatrix<f64>| m - &basis * (basis.tr_mul(m));
-    let residuals = &tangent.residuals - &basis * basis.tr_mul(&tangent.residuals);
-    let added = added.into_owned();
-    let mut rest = apart(&added);
-    for (mut rest, column) in rest.column_iter_mut().zip(added.column_iter()) {
-        if rest.norm() < ROUNDING.sqrt() * column.norm() {
-            rest.fill(0.0);
-        }
-    }
-    let gain = |range: std::ops::Range<usize>| {
-        let part = rest.columns(range.start - base, range.len()).into_owned();
-        let basis = orthonormal(part.clone());
-        let along = basis.tr_mul(&residuals);
-        let inverse = match basis.is_empty() {
-            true => None,
-            false => basis.tr_mul(&part).pseudo_inverse(ROUNDING.sqrt()).ok(),
-        };
-        let step =
-            inverse.map_or(vec![0.0; range.len()], |inverse| (-inverse * &along).data.into());
-        Gain { chi2: along.norm_squared(), directions: basis.ncols(), step }
-    };
-    Ok(columns.into_iter().map(gain).collect())
+    let tangent = tangent(&refined, &unknowns, best.gap, JacobianBy::Parameters)?;
+    let of = |(first, count)| tangent.jacobian.columns(first, count).into_owned();
+    Ok(columns.into_iter().map(of).collect())
 }
 
 /// What the data say of the free parameters of the last effect, all else refitted: the inverse of

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::along_bounds::{Effort, free_problem, is_at_an_end, is_better, margin_s, solve, solved};
 use super::covariance::Covariance;
 use crate::bridge::refined::ffi::{
-    self, RefinedBody, RefinedScene, RefinedSolution, RefinedUnknowns,
+    self, JacobianBy, RefinedBody, RefinedProblem, RefinedScene, RefinedSolution, RefinedUnknowns,
 };
 use crate::effect::Hook;
 use crate::reconstruct::solver_error;
@@ -41,7 +41,7 @@ pub(super) fn optima_from(
     scene: &RefinedScene,
     starts: &[(RefinedUnknowns, Gap)],
 ) -> Result<Vec<Optimum>> {
-    let from = starts.iter().map(|(unknowns, gap)| (unknowns, *gap));
+    let from = promising(scene, starts).into_iter().map(|(unknowns, gap)| (unknowns, *gap));
     let found = all_optima(scene, from, Effort::UntilAtAnEnd)?;
     let mut optima: Vec<Optimum> =
         found.into_iter().map(|optimum| walked(scene, optimum, Effort::UntilAtAnEnd)).collect();
@@ -55,6 +55,26 @@ pub(super) fn optima_from(
     }
     sort(&mut optima);
     Ok(optima)
+}
+
+/// The starts that aren't far worse than the best.
+fn promising<'a>(
+    scene: &RefinedScene,
+    starts: &'a [(RefinedUnknowns, Gap)],
+) -> Vec<&'a (RefinedUnknowns, Gap)> {
+    /// In costs: of five thousand none from so far off ended ahead.
+    const FAR_WORSE: f64 = 30.0;
+    if starts.len() < 2 {
+        return starts.iter().collect();
+    }
+    let cost = |(unknowns, gap): &(RefinedUnknowns, Gap)| {
+        let at = evaluated(scene, unknowns, *gap, JacobianBy::Nothing);
+        at.map_or(f64::INFINITY, |at| at.cost)
+    };
+    let costs: Vec<f64> = starts.iter().map(cost).collect();
+    let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = FAR_WORSE * least + HOPELESS;
+    starts.iter().zip(costs).filter(|(_, cost)| *cost <= most).map(|(start, _)| start).collect()
 }
 
 /// The optimum of a nested model as one of `scene`, where at `unknowns` it is the same model: cost
@@ -168,16 +188,15 @@ fn optimum(
     Ok(Optimum { gap, covariance: Covariance::new(&total_information(&solution)), solution })
 }
 
-/// The model at `unknowns`, with its Jacobian; nothing is optimised.
+/// The model at `unknowns`; nothing is optimised.
 pub(super) fn evaluated(
     scene: &RefinedScene,
     unknowns: &RefinedUnknowns,
     gap: Gap,
+    jacobian: JacobianBy,
 ) -> Result<RefinedSolution> {
-    let mut problem = free_problem(unknowns, &gap);
-    problem.most_iterations = 0;
-    problem.with_jacobian = true;
-    solve(scene, &problem)
+    let problem = free_problem(unknowns, &gap);
+    solve(scene, &RefinedProblem { most_iterations: 0, jacobian, ..problem })
 }
 
 fn total_information(solution: &RefinedSolution) -> DMatrix<f64> {

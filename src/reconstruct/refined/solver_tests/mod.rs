@@ -11,7 +11,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::model::across;
 use crate::Scene;
 use crate::bridge::refined::ffi::{
-    RefinedBody, RefinedHold, RefinedMotion, RefinedPose, RefinedProblem, RefinedScene,
+    JacobianBy, RefinedBody, RefinedHold, RefinedMotion, RefinedPose, RefinedProblem, RefinedScene,
     RefinedUnknowns, RestitutionPin,
 };
 use crate::effect::EffectRequest;
@@ -93,7 +93,7 @@ impl Case {
                 hold: RefinedHold { collision_time: false, log_mass_ratio: false },
                 restitution: RestitutionPin { value: 0.0, weight: 0.0 },
                 most_iterations: 50,
-                with_jacobian: false,
+                jacobian: JacobianBy::Nothing,
             },
         }
         .spinning(Vector3::new(4.0, -6.0, 3.0))
