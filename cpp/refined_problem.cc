@@ -7,12 +7,10 @@
 #include <ceres/solver.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "acting_effects.h"
 #include "ceres_compat.h"
@@ -35,9 +33,6 @@ constexpr double kMostMissed = 100.0;
 constexpr int kFinest = 16;
 // In a row, with a free collision time at an end of its segment.
 constexpr int kMostIterationsAtAnEnd = 4;
-// A search creeps where so many steps in a row lower the cost by less than this share of it.
-constexpr std::size_t kCreepingSteps = 10;
-constexpr double kCreepingShare = 1e-3;
 
 // Ends the search where the collision time stays at an end of its segment: there steps are cut
 // short, and most often the optimum is in the next segment.
@@ -57,23 +52,6 @@ class StaysAtAnEnd : public ceres::IterationCallback {
   const RefinedProblem& problem_;
   const double* time_s_;
   int iterations_ = 0;
-};
-
-// Ends the search where it creeps, along what the data hardly tell: an optimum that they do tell is
-// reached in fewer steps.
-class Creeps : public ceres::IterationCallback {
- public:
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-    if (!step.step_is_successful) return ceres::SOLVER_CONTINUE;
-    costs_.push_back(step.cost);
-    if (costs_.size() <= kCreepingSteps) return ceres::SOLVER_CONTINUE;
-    const double lowered_by = costs_[costs_.size() - 1 - kCreepingSteps] - step.cost;
-    return lowered_by < kCreepingShare * step.cost ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                   : ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  std::vector<double> costs_;
 };
 
 class RefinedFit {
@@ -132,8 +110,7 @@ class RefinedFit {
     options.max_num_consecutive_invalid_steps = 50;
     options.logging_type = ceres::SILENT;
     StaysAtAnEnd stays_at_an_end(problem_, blocks_.time.values.data());
-    Creeps creeps;
-    options.callbacks = {&stays_at_an_end, &creeps};
+    options.callbacks.push_back(&stays_at_an_end);
     options.update_state_every_iteration = true;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &ceres_, &summary);

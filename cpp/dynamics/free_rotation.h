@@ -44,8 +44,8 @@ Quaternion<T> RungeKuttaStep(const Quaternion<T>& q, const Vector3<T>& l,
 // A small turn phi of the orientation and a change d of l obey dphi/dt = A (l x phi + d) with
 // A = R I^-1 R^T. Hence phi(t) = (1 + Psi [l]x) phi(0) + Psi d, where dPsi/dt = A ([l]x Psi + 1)
 // and Psi(0) = 0: one matrix tells both derivatives. It is integrated as X = R^T Psi, with
-// dX/dt = I^-1 ([R^T l]x X + R^T) - [omega in body]x X. The moments of inertia
-// obey the same with -diag(I^-1 omega in body) in the place of I^-1 R^T.
+// dX/dt = I^-1 ([R^T l]x X + R^T) - [omega in body]x X. What moments of inertia do obeys the same
+// with -diag(I^-1 omega in body) in the place of I^-1 R^T.
 class FreeRotation {
  public:
   // What it is differentiated by.
@@ -89,7 +89,7 @@ class FreeRotation {
   }
 
  private:
-  // What rates need of an orientation; the last two are what drives X and that by inertia.
+  // What rates need of an orientation; the last two drive the derivatives.
   struct Frame {
     Frame(const FreeRotation& rotation, const Quaternion<double>& q) {
       const Matrix3 body_from_world = ToMatrix(q).transpose();

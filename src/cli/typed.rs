@@ -83,9 +83,19 @@ impl Typed {
         let mut completed: Vec<String> = words.next().map(String::from).into_iter().collect();
         for word in words {
             let is_effect = completed.last().is_some_and(|before| before == "--with");
-            completed.push(if is_effect { self.effect(word) } else { word.to_string() });
+            completed.push(match self.numbered(word) {
+                Some(scene) => scene.to_string(),
+                None if is_effect => self.effect(word),
+                None => word.to_string(),
+            });
         }
         completed.join(" ")
+    }
+
+    /// The scene that `word` stands for, SCENE_1 and so on.
+    fn numbered(&self, word: &str) -> Option<&String> {
+        let number: usize = word.strip_prefix("SCENE_")?.parse().ok()?;
+        self.scenes.get(number.checked_sub(1)?)
     }
 
     /// The command that reconstructs the scene with `labels` beside the effects that were typed.

@@ -2,6 +2,7 @@
 //! that lasts, of a body that gives way, or of a tracker that slips where a body turns round. To the model
 //! a collision is over in a moment, so what they miss looks like an effect.
 
+use std::fmt;
 use std::ops::Range;
 
 use schemars::JsonSchema;
@@ -62,6 +63,17 @@ impl NearCollision {
         (self.from_time..=self.to_time).contains(&time_s)
     }
 
+    /// `scene` without these poses.
+    pub(super) fn rest(&self, scene: &Scene) -> Scene {
+        scene.keeping(|pose| !self.holds(pose.time_s))
+    }
+
+    /// What leaves them out of `scene`.
+    pub(super) fn cut(&self, scene: &str, output: &str) -> String {
+        let (from, to) = (outwards(self.from_time, f64::floor), outwards(self.to_time, f64::ceil));
+        format!("smash cut {scene} --from {from} --to {to} -o {output}")
+    }
+
     /// With what `scene` shows without them; `None` where that is as far from an answer: a model that is
     /// bent far has the collision at another time, and ends its flights there.
     pub(super) fn told(
@@ -70,7 +82,7 @@ impl NearCollision {
         fitted: &Fitted,
         explained: impl FnOnce(&Scene) -> Result<Explained>,
     ) -> Result<Option<Otherwise>> {
-        let rest = scene.keeping(|pose| !self.holds(pose.time_s));
+        let rest = self.rest(scene);
         // What has no answer isn't asked: it takes long.
         if fitted.is_far_off() && fitted.of(&rest)?.is_far_off() {
             return Ok(None);
@@ -80,18 +92,14 @@ impl NearCollision {
             return Ok(None);
         }
         let shows = explained.shows();
-        let (from, to) = (rounded(self.from_time), rounded(self.to_time));
-        let poses = counted(self.poses, "pose");
         Ok(Some(Otherwise {
             words: format!(
-                "Or it is the contact: the {poses} from {from} to {to} s are on no smooth path with the \
-                 others, as where a contact lasts or a tracker slips. Without them {shows}."
+                "Or it is the contact: the {self} are on no smooth path with the others, as where a contact lasts or a tracker slips. Without them {shows}."
             ),
             mend: format!(
-                "take the {poses} out, since to the model a contact is over in a moment, and ask again: \
-                 smash cut SCENE --from {} --to {} -o cut.json",
-                outwards(self.from_time, f64::floor),
-                outwards(self.to_time, f64::ceil)
+                "take the {} out, since to the model a contact is over in a moment, and ask again: {}",
+                counted(self.poses, "pose"),
+                self.cut("SCENE", "cut.json")
             ),
             missing: explained.missing,
             cause: Cause::NearCollision(NearCollision {
@@ -99,6 +107,13 @@ impl NearCollision {
                 ..self
             }),
         }))
+    }
+}
+
+impl fmt::Display for NearCollision {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (from, to) = (rounded(self.from_time), rounded(self.to_time));
+        write!(out, "{} from {from} to {to} s", counted(self.poses, "pose"))
     }
 }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::dependence::waves_beside_curves;
 use super::misread::Misread;
 use super::near_collision::NearCollision;
+use super::near_collisions::NearCollisions;
 use super::other_noise::OtherNoise;
 use super::shared_errors::{SharedErrors, WAVES};
 use crate::reconstruct::refined::Fitted;
@@ -35,6 +36,8 @@ pub enum Cause {
     SharedErrors(SharedErrors),
     /// With errors that are large where the bodies touch.
     NearCollision(NearCollision),
+    /// The same in several throws.
+    NearCollisions(NearCollisions),
     /// Written otherwise than they are read.
     Misread(Misread),
 }
@@ -81,13 +84,18 @@ impl Otherwise {
 impl Explained {
     /// In words.
     pub(super) fn shows(&self) -> String {
-        match (self.missing.as_slice(), self.leaves_more) {
-            (labels, false) => all_that_is_missing(labels),
-            ([], true) => "something is left still that no effect explains".to_string(),
-            ([one], true) => format!("{one} is missing, and something is left still"),
-            (all, true) => {
-                format!("{} are missing, and something is left still", all.join(" and "))
-            }
+        shows(&self.missing, self.leaves_more)
+    }
+}
+
+/// What is `missing`, in words, and whether that is all.
+pub(super) fn shows(missing: &[String], leaves_more: bool) -> String {
+    match (missing, leaves_more) {
+        (labels, false) => all_that_is_missing(labels),
+        ([], true) => "something is left still that no effect explains".to_string(),
+        ([one], true) => format!("{one} is missing, and something is left still"),
+        (all, true) => {
+            format!("{} are missing, and something is left still", all.join(" and "))
         }
     }
 }

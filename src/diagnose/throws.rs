@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use super::advice::known_effects;
 use super::best_of_throws::{Best, put_best_first, with_own};
 use super::candidates::is_own;
-use super::diagnosis::{DIAGNOSIS_SCHEMA, Diagnosis, Verdict};
+use super::diagnosis::{CandidateReport, DIAGNOSIS_SCHEMA, Diagnosis, Verdict};
+use super::near_collisions::{ExplainedThrows, NearCollisions};
 use super::pooled::{PooledCandidate, Throw, pooled};
 use super::throws_in_words::explanation_of_throws;
 use super::throws_told::{advice, report};
@@ -36,6 +37,33 @@ pub fn diagnose_throws(
     options: &RefinedOptions,
     further: &[EffectRequest],
 ) -> Result<Diagnosis> {
+    let (diagnosis, throws) = diagnosed(scenes, options, further)?;
+    let leaves_more = diagnosis.stays_structured || diagnosis.verdict == Verdict::UnknownEffect;
+    let without = leaves_more.then(|| {
+        NearCollisions::told(&throws, |rest| {
+            let (again, _) = diagnosed(rest, options, further)?;
+            let missing = again.missing();
+            Ok(ExplainedThrows {
+                missing: missing.map(CandidateReport::label).into_iter().collect(),
+                words: String::new(),
+                leaves_more: again.stays_structured || again.verdict == Verdict::UnknownEffect,
+            })
+        })
+    });
+    // What can't be asked says nothing.
+    let otherwise = without.and_then(|told| told.ok().flatten());
+    let mut diagnosis = Diagnosis { otherwise, ..diagnosis };
+    diagnosis.explanation = explanation_of_throws(&diagnosis, scenes.len());
+    diagnosis.advice.extend(diagnosis.otherwise.iter().map(|otherwise| otherwise.mend.clone()));
+    Ok(diagnosis)
+}
+
+/// The diagnosis, without words and what else it may be, and the throws with the best effect.
+fn diagnosed<'a>(
+    scenes: &'a [Scene],
+    options: &RefinedOptions,
+    further: &[EffectRequest],
+) -> Result<(Diagnosis, Vec<Throw<'a>>)> {
     let throws = throws(scenes, options)?;
     let instances = instances(&throws, further)?;
     let mut candidates = pooled(&throws, &instances);
@@ -96,10 +124,9 @@ pub fn diagnose_throws(
         explanation: String::new(),
         advice: Vec::new(),
     };
-    diagnosis.explanation = explanation_of_throws(&diagnosis, scenes.len());
     let known = known_effects(throws[0].scene, &throws[0].fitted);
     diagnosis.advice = advice(&diagnosis, &known);
-    Ok(diagnosis)
+    Ok((diagnosis, best.map_or(throws, |best| best.throws)))
 }
 
 /// Each scene fitted by the model of `options`.

@@ -10,7 +10,9 @@ use crate::words::significant;
 /// What the `diagnosis` of `count` throws together says.
 pub(super) fn explanation_of_throws(diagnosis: &Diagnosis, count: usize) -> String {
     let together = diagnosis.together.iter().map(|one| one.in_words());
-    let sentences = std::iter::once(verdict_of_throws(diagnosis, count)).chain(together);
+    let otherwise = diagnosis.otherwise.iter().map(|otherwise| otherwise.words.clone());
+    let sentences =
+        std::iter::once(verdict_of_throws(diagnosis, count)).chain(otherwise).chain(together);
     let text = sentences.collect::<Vec<_>>().join(" ");
     let misses = diagnosis.stays_structured || diagnosis.verdict == Verdict::UnknownEffect;
     match misses && !diagnosis.together.is_empty() {

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 
 use super::{EffectEstimate, Improvement, Rung};
 use crate::diagnose::{
-    PooledCandidate, Throw, Verdict, alike, held_out_rmse_m, instances, looks, pooled,
-    put_best_first, reduced_chi2, reported, throws, together, with_effect, with_own,
+    ExplainedThrows, NearCollisions, PooledCandidate, Throw, Verdict, alike, held_out_rmse_m,
+    instances, looks, pooled, put_best_first, reduced_chi2, reported, throws, together,
+    with_effect, with_own,
 };
 use crate::effect::EffectRequest;
 use crate::reconstruct::RefinedOptions;
@@ -26,6 +27,29 @@ pub fn improve_throws(
     options: &RefinedOptions,
     further: &[EffectRequest],
 ) -> Result<Improvement> {
+    let (improvement, throws) = improved(scenes, options, further)?;
+    if improvement.verdict != Verdict::UnknownEffect {
+        return Ok(improvement.told());
+    }
+    let without = NearCollisions::told(&throws, |rest| {
+        let (again, _) = improved(rest, options, further)?;
+        let sizes: Vec<String> = again.ladder.iter().filter_map(Rung::in_words).collect();
+        Ok(ExplainedThrows {
+            missing: again.ladder.iter().filter_map(|rung| rung.added.clone()).collect(),
+            words: sizes.join(" "),
+            leaves_more: again.verdict == Verdict::UnknownEffect,
+        })
+    });
+    // What can't be asked says nothing.
+    Ok(Improvement { otherwise: without.ok().flatten(), ..improvement }.told())
+}
+
+/// The improvement, not yet in words, and the throws with its effects.
+fn improved<'a>(
+    scenes: &'a [Scene],
+    options: &RefinedOptions,
+    further: &[EffectRequest],
+) -> Result<(Improvement, Vec<Throw<'a>>)> {
     let base = throws(scenes, options)?;
     let mut throws = base.clone();
     let mut added: Vec<PooledCandidate> = Vec::new();
@@ -69,7 +93,8 @@ pub fn improve_throws(
     let own = added.iter().try_fold(base, |own, added| with_own(&own, added));
     let together = own.map_or(Ok(Vec::new()), |own| together(&own))?;
     let scene = throws[0].scene;
-    Ok(Improvement { verdict, together, ..Improvement::new(scene, ladder, result) }.told())
+    let improvement = Improvement { verdict, together, ..Improvement::new(scene, ladder, result) };
+    Ok((improvement, throws))
 }
 
 /// Gives each effect the values that all throws say of it with those of the others, in turn: what was

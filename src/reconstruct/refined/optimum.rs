@@ -41,7 +41,7 @@ pub(super) fn optima_from(
     scene: &RefinedScene,
     starts: &[(RefinedUnknowns, Gap)],
 ) -> Result<Vec<Optimum>> {
-    let from = promising(scene, starts).into_iter().map(|(unknowns, gap)| (unknowns, *gap));
+    let from = starts.iter().map(|(unknowns, gap)| (unknowns, *gap));
     let found = all_optima(scene, from, Effort::UntilAtAnEnd)?;
     let mut optima: Vec<Optimum> =
         found.into_iter().map(|optimum| walked(scene, optimum, Effort::UntilAtAnEnd)).collect();
@@ -55,26 +55,6 @@ pub(super) fn optima_from(
     }
     sort(&mut optima);
     Ok(optima)
-}
-
-/// The starts that aren't far worse than the best.
-fn promising<'a>(
-    scene: &RefinedScene,
-    starts: &'a [(RefinedUnknowns, Gap)],
-) -> Vec<&'a (RefinedUnknowns, Gap)> {
-    /// In costs: of five thousand none from so far off ended ahead.
-    const FAR_WORSE: f64 = 30.0;
-    if starts.len() < 2 {
-        return starts.iter().collect();
-    }
-    let cost = |(unknowns, gap): &(RefinedUnknowns, Gap)| {
-        let at = evaluated(scene, unknowns, *gap, JacobianBy::Nothing);
-        at.map_or(f64::INFINITY, |at| at.cost)
-    };
-    let costs: Vec<f64> = starts.iter().map(cost).collect();
-    let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = FAR_WORSE * least + HOPELESS;
-    starts.iter().zip(costs).filter(|(_, cost)| *cost <= most).map(|(start, _)| start).collect()
 }
 
 /// The optimum of a nested model as one of `scene`, where at `unknowns` it is the same model: cost

@@ -138,8 +138,9 @@ fn the_table_of_uncertainties_is_a_covariance() {
         let known: Vec<usize> = (0..table.std.len()).filter(|&i| table.std[i].is_some()).collect();
         for (row, correlations) in table.correlation.iter().enumerate() {
             assert_eq!(correlations.len(), row + 1);
-            let itself = table.std[row].map(|_| 1.0);
-            assert_eq!(correlations[row].map(|r| (r * 1e12).round() / 1e12), itself);
+            assert_eq!(correlations[row].is_some(), table.std[row].is_some());
+            // Rounding of a badly determined quantity's variance.
+            assert!(correlations[row].is_none_or(|itself| (itself - 1.0).abs() < 1e-9));
             assert!(correlations.iter().flatten().all(|r| r.abs() <= 1.0));
         }
         let matrix = DMatrix::from_fn(known.len(), known.len(), |i, j| {

@@ -1,6 +1,10 @@
 //! Contacts that last: what the poses show meanwhile is no flight, and looks like an effect.
 
-use smash::diagnose::{Cause, Diagnosis, NearCollision, Otherwise};
+use std::path::Path;
+
+use smash::diagnose::{Cause, Diagnosis, NearCollision, NearCollisions, Otherwise};
+use smash::improve::Improvement;
+use smash::reconstruct::Number;
 
 use super::*;
 
@@ -28,6 +32,22 @@ fn softened(simulation: &Simulation) -> Scene {
         }
     }
     Scene::from_file(file).unwrap()
+}
+
+/// What a command prints.
+fn typed(folder: &Path, command: &str) -> String {
+    let mut smash = std::process::Command::new(env!("CARGO_BIN_EXE_smash"));
+    let arguments = command.split_whitespace().skip(1);
+    let output = smash.args(arguments).current_dir(folder).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Runs the cuts that stand in `told`, and counts them.
+fn cut(folder: &Path, told: &str) -> usize {
+    let mut lines = told.lines();
+    let cuts = lines.find_map(|line| line.find("smash cut ").map(|place| &line[place..])).unwrap();
+    cuts.split(" && ").map(|command| typed(folder, command)).count()
 }
 
 fn diagnosis(scene: &Scene) -> Diagnosis {
@@ -62,16 +82,8 @@ fn the_poses_of_a_contact_are_cut_by_the_command_that_is_printed() {
     let scene = softened(&with(dense(plain_balls(61)), &[]));
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("soft.json"), scene.to_file().to_json()).unwrap();
-    let typed = |arguments: &[&str]| {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_smash"));
-        let output = command.args(arguments).current_dir(folder.path()).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).unwrap()
-    };
-    let told = typed(&["diagnose", "soft.json", "-o", "soft.diagnosis.json"]);
-    let cut = told.lines().find_map(|line| line.split_once("smash cut ")).unwrap().1;
-    let arguments: Vec<&str> = std::iter::once("cut").chain(cut.split_whitespace()).collect();
-    typed(&arguments);
+    let told = typed(folder.path(), "smash diagnose soft.json -o soft.diagnosis.json");
+    assert_eq!(cut(folder.path(), &told), 1);
     let file = std::fs::read_to_string(folder.path().join("soft.diagnosis.json")).unwrap();
     let (near, _) = without_contact(serde_json::from_str::<Diagnosis>(&file).unwrap().otherwise);
     let count = |scene: &Scene| -> usize {
@@ -89,6 +101,43 @@ fn beside_a_contact_that_lasts_the_effect_is_told_that_is_missing() {
     let improvement = smash::improve(&scene, &RefinedOptions::default(), &[]).unwrap();
     let (_, missing) = without_contact(improvement.otherwise);
     assert_eq!(missing, ["quadratic_drag@a"]);
+}
+
+/// Each throw has a contact of its own; the drag that they share is told beside it, with its size.
+#[test]
+fn the_contacts_of_several_throws_are_told_and_cut() {
+    const K: f64 = 0.2;
+    let folder = tempfile::tempdir().unwrap();
+    for seed in [62, 64] {
+        let drag = effect("quadratic_drag", Some("a"), &[("k", &[K])]);
+        let scene = softened(&with(dense(plain_balls(seed)), &[drag]));
+        let file = folder.path().join(format!("soft_{seed}.json"));
+        std::fs::write(file, scene.to_file().to_json()).unwrap();
+    }
+    let told = typed(folder.path(), "smash improve soft_62.json soft_64.json -o soft.json");
+    let file = std::fs::read_to_string(folder.path().join("soft.json")).unwrap();
+    let improvement: Improvement = serde_json::from_str(&file).unwrap();
+    let otherwise = improvement.otherwise.unwrap();
+    assert_eq!(otherwise.missing, ["quadratic_drag@a"]);
+    assert!(told.contains(&otherwise.words), "{told}");
+    let Cause::NearCollisions(NearCollisions { throws, leaves_more: false }) = otherwise.cause
+    else {
+        panic!("{otherwise:?}")
+    };
+    assert_eq!(throws.len(), 2);
+    assert_eq!(cut(folder.path(), &told), 2);
+    let again = typed(folder.path(), "smash improve cut_1.json cut_2.json --json");
+    let again: Improvement = serde_json::from_str(&again).unwrap();
+    let drag = &again.ladder[1].parameters["k"];
+    let (Some(Number::Scalar(k)), Some(Number::Scalar(std))) = (&drag.value, &drag.std) else {
+        panic!("{drag:?}")
+    };
+    assert!((k - K).abs() < 4.0 * std, "{k} ± {std}");
+    let diagnosis = typed(folder.path(), "smash diagnose soft_62.json soft_64.json");
+    assert!(
+        diagnosis.contains("Without them quadratic_drag@a is all that is missing"),
+        "{diagnosis}"
+    );
 }
 
 /// A force bends whole flights, also where no effect explains it.

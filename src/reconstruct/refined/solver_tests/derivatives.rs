@@ -41,7 +41,7 @@ fn assert_agrees(name: &str, case: Case, tolerance: f64) {
 /// Ψ is integrated in steps of 0.24 rad at most, in which it turns about twice as fast as the body:
 /// Runge-Kutta's error of order 4 is some 0.5⁴ / 120 = 5e-4 of it, less where a step is shorter. The
 /// optimum doesn't depend on it, and a deviation needs no more.
-const BY_STEPS: f64 = 1e-4;
+pub(super) const BY_STEPS: f64 = 1e-4;
 /// Where inertia is isotropic Ψ has a closed form, and where a step is a few thousandths of
 /// a radian its fourth power is 1e-11: the formulas themselves are right.
 const EXACT: f64 = 1e-10;

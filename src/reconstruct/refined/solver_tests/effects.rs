@@ -7,10 +7,11 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::{BALL, BOX, BRICK, COLLISION_S, Case, TIMES_S};
+use super::derivatives::BY_STEPS;
+use super::{BALL, BOX, BRICK, COLLISION_S, CUBE, Case, TIMES_S};
 use crate::bridge::flight_reference::ffi::difference_effects;
 use crate::bridge::refined::ffi::{FlownState, fly, solve_refined};
-use crate::effect::{Effect, Need, Scan, Scope, catalogue, find};
+use crate::effect::{Effect, Hook, Need, Scan, Scope, catalogue, find};
 use crate::reconstruct::refined::acting::Instance;
 
 fn instance(effect: &Effect, body: Option<usize>) -> Instance {
@@ -56,7 +57,7 @@ fn near_null(effect: &Effect, part: f64, random: &mut ChaCha8Rng) -> Vec<f64> {
 }
 
 /// Every law of the catalogue, by every unknown: differences are good to a millionth (their step's
-/// note says why).
+/// note says why); a rotation without torque has Ψ's error.
 #[test]
 fn derivatives_of_effects_are_those_of_differences() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
@@ -65,6 +66,7 @@ fn derivatives_of_effects_are_those_of_differences() {
         let shapes = if plane { &[BOX][..] } else { &[BOX, BRICK][..] };
         let states = [
             ("in flight", Case::new(shapes, plane)),
+            ("as cubes", Case::new(&[CUBE; 2][..shapes.len()], plane)),
             ("at rest", Case::new(shapes, plane).spinning(Vector3::zeros()).edited_start(0.0)),
             ("without spin", Case::new(shapes, plane).spinning(Vector3::zeros())),
             (
@@ -72,6 +74,9 @@ fn derivatives_of_effects_are_those_of_differences() {
                 Case::new(shapes, plane).spinning(Vector3::repeat(1e-9)).edited_start(1e-9),
             ),
         ];
+        let turns_freely = effect.laws.iter().all(|(hook, _)| *hook != Hook::Torque);
+        // Where two terms cancel, as by the moment of an impulse of nothing, Ψ's error is all there is.
+        let tolerance = if turns_freely { 10.0 * BY_STEPS } else { 1e-6 };
         for (state, case) in states {
             // A body that doesn't slide rubs in no direction: there the law has a corner.
             if effect.name == "friction" && state.ends_with("rest") {
@@ -87,7 +92,7 @@ fn derivatives_of_effects_are_those_of_differences() {
                     acted.problem.start.tilt = [0.01, -0.02];
                     let found = difference_effects(&acted.scene, &acted.problem).unwrap();
                     let name = format!("{} on {body}, {state}, {part}: {found:?}", effect.name);
-                    assert!(found.flights > 0 && found.derivative < 1e-6, "{name}");
+                    assert!(found.flights > 0 && found.derivative < tolerance, "{name}");
                 }
             }
         }
