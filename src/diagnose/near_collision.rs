@@ -94,7 +94,8 @@ impl NearCollision {
         let shows = explained.shows();
         Ok(Some(Otherwise {
             words: format!(
-                "Or it is the contact: the {self} are on no smooth path with the others, as where a contact lasts or a tracker slips. Without them {shows}."
+                "Or it is the contact: the {self} are on no smooth path with the others, as where a \
+                 contact lasts or a tracker slips. Without them {shows}."
             ),
             mend: format!(
                 "take the {} out, since to the model a contact is over in a moment, and ask again: {}",

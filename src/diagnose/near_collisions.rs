@@ -79,7 +79,7 @@ impl NearCollisions {
             words: format!(
                 "Or it is the contact: {} are on no smooth path with the others, as where a contact \
                  lasts or a tracker slips. Without them {}{}",
-                poses.collect::<Vec<_>>().join(", "),
+                poses.collect::<Vec<_>>().join(" and "),
                 shows(&explained.missing, explained.leaves_more),
                 match explained.words.as_str() {
                     "" => ".".to_string(),
