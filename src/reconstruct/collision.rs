@@ -1,6 +1,6 @@
 //! The bodies just before and just after the collision, and what follows from them.
 
-use nalgebra::{UnitVector3, Vector3};
+use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use super::BodyResult;
 use crate::Scene;
@@ -82,10 +82,12 @@ pub(super) fn body_result(name: &str, states: &States) -> BodyResult {
     let States { before, after, spin_before_known, spin_after_known, .. } = states;
     let if_known = |known: &bool, v: Vector3<f64>| known.then(|| v.into());
     let pose_known = *spin_before_known || *spin_after_known;
+    // A solver's steps leave its length at 1 but for rounding, which adds up.
+    let orientation = || UnitQuaternion::new_normalize(before.world_from_body.into_inner());
     BodyResult {
         name: name.to_string(),
         position: before.position_in_world.into(),
-        orientation: pose_known.then(|| to_wxyz(&before.world_from_body)),
+        orientation: pose_known.then(|| to_wxyz(&orientation())),
         velocity_before: before.velocity_in_world.into(),
         velocity_after: after.velocity_in_world.into(),
         angular_velocity_before: if_known(spin_before_known, before.omega_in_world()),
