@@ -127,7 +127,7 @@ fn in_passes<'a>(
     fitted: &Fitted,
     candidates: &'a [(Instance, Vec<f64>)],
 ) -> Vec<&'a [(Instance, Vec<f64>)]> {
-    /// Derivatives that a pass takes.
+    /// Derivatives that a pass takes, as in `cpp/refined_problem.cc`.
     const MOST: usize = 28;
     let mut passes = Vec::new();
     let mut first = 0;
